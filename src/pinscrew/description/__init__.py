@@ -1,0 +1,1 @@
+"""Layer 1: what files say about robots. No kinematics."""

@@ -1,0 +1,129 @@
+"""Robots by name: those that travel with pinscrew, those of example-robot-data, and any file."""
+
+from __future__ import annotations
+
+import difflib
+import importlib.metadata
+import json
+import re
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Final
+
+from pinscrew.errors import MissingExtraError, UnknownNameError
+
+__all__ = ["Entry", "bundled", "example_robots", "find", "robots_directory"]
+
+EXAMPLE_DATA: Final = "example-robot-data"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A robot that can be loaded.
+
+    Attributes:
+        name: what to load it by.
+        file: its URDF or xacro file.
+        aliases: further names.
+        tip: its default tip, where that is not the lone leaf.
+        title: what it is, in a few words.
+        coursework: where it comes from.
+    """
+
+    name: str
+    file: Path
+    aliases: tuple[str, ...] = ()
+    tip: str | None = None
+    title: str = ""
+    coursework: str = ""
+
+
+def robots_directory() -> Path:
+    """The folder of the bundled robots: inside the package when installed, at the top of a checkout."""
+    package = Path(__file__).resolve().parents[1]
+    installed = package / "_robots"
+    return installed if installed.is_dir() else package.parents[1] / "robots"
+
+
+@cache
+def bundled() -> tuple[Entry, ...]:
+    """The robots that travel with pinscrew, in the order of its catalogue."""
+    directory = robots_directory()
+    catalogue = json.loads((directory / "catalogue.json").read_text(encoding="utf-8"))
+    return tuple(
+        Entry(
+            name=row["name"],
+            file=directory / row["file"],
+            aliases=tuple(row["aliases"]),
+            tip=row["tip"],
+            title=row["title"],
+            coursework=row["coursework"],
+        )
+        for row in catalogue["robots"]
+    )
+
+
+@cache
+def example_robots() -> tuple[Entry, ...]:
+    """The URDFs of example-robot-data, by their files' names without the suffix.
+
+    Where two files share a name, the folder that describes the robot comes before it, with a slash.
+
+    Raises:
+        MissingExtraError: if example-robot-data is not installed.
+    """
+    try:
+        files = importlib.metadata.distribution(EXAMPLE_DATA).files or []
+    except importlib.metadata.PackageNotFoundError:
+        raise MissingExtraError(f"{EXAMPLE_DATA} is not installed", "robots") from None
+    paths = sorted(Path(str(file.locate())).resolve() for file in files if file.suffix == ".urdf")
+    stems = [path.stem for path in paths]
+    entries = []
+    for path in paths:
+        folder = next(part for part in reversed(path.parts[:-1]) if part not in ("urdf", "robots"))
+        name = path.stem if stems.count(path.stem) == 1 else f"{folder}/{path.stem}"
+        entries.append(Entry(name, path))
+    return tuple(entries)
+
+
+def find(source: str | Path) -> Entry:
+    """The robot that ``source`` names: a path, a bundled robot, or a URDF of example-robot-data.
+
+    Text is taken as a path if it ends in ``.urdf``, ``.xacro`` or ``.xml``, or is an existing file.
+
+    Raises:
+        UnknownNameError: if it names none of them; the message lists what comes close.
+    """
+    path = Path(source)
+    if isinstance(source, Path) or path.suffix in (".urdf", ".xacro", ".xml") or path.is_file():
+        return _of_path(path)
+    for entry in bundled():
+        if source == entry.name or source in entry.aliases:
+            return entry
+    names = [name for entry in bundled() for name in (entry.name, *entry.aliases)]
+    try:
+        others = example_robots()
+    except MissingExtraError:
+        others = ()
+    for entry in others:
+        if source == entry.name:
+            return entry
+    names += [entry.name for entry in others]
+    near = difflib.get_close_matches(source, names, n=5, cutoff=0.5)
+    near += [
+        name for name in names if source.lower() in re.split(r"[/_-]", name.lower()) and name not in near
+    ]
+    raise UnknownNameError("unknown-robot", "robot or file", source, tuple(near or names))
+
+
+def _of_path(path: Path) -> Entry:
+    """The file's own entry; a bundled file keeps what the catalogue says of it."""
+    if path.is_file():
+        for entry in bundled():
+            if path.samefile(entry.file):
+                return entry
+    name = path.name
+    for suffix in (".xacro", ".xml", ".urdf"):
+        name = name.removesuffix(suffix)
+    return Entry(name, path)

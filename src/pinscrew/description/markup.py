@@ -1,0 +1,118 @@
+"""From bytes to elements with line numbers, and nothing that could hurt: no entities, no other encodings.
+
+expat without namespace processing sees tags as tinyxml2 (and so Pinocchio) does: ``<a:link>`` is an element of
+an extension, whatever ``a`` is bound to, and a default ``xmlns`` changes no name.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final, NoReturn
+from xml.parsers import expat
+
+from pinscrew.errors import DescriptionError
+
+__all__ = ["MAX_BYTES", "Element", "decode", "parse", "read"]
+
+MAX_BYTES: Final = 20 * 2**20
+"""Largest file that is read."""
+
+_BOM: Final = b"\xef\xbb\xbf"
+_DECLARED: Final = re.compile(rb"""<\?xml[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
+
+
+@dataclass(slots=True)
+class Element:
+    """An XML element: tag, attributes, child elements, and the line it starts on."""
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    children: list[Element] = field(default_factory=list)
+
+    def all(self, tag: str) -> Iterator[Element]:
+        """The direct children with this tag."""
+        return (child for child in self.children if child.tag == tag)
+
+
+def read(path: Path) -> str:
+    """The text of a file of at most ``MAX_BYTES``.
+
+    Raises:
+        DescriptionError: if it can't be read, is too large, or is not UTF-8.
+    """
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise DescriptionError("no-file", "there is no such file", file=path) from None
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise DescriptionError("unreadable", f"can't be read ({reason})", file=path) from error
+    return decode(data, path)
+
+
+def decode(data: bytes, file: str | Path) -> str:
+    """UTF-8 bytes, with or without a byte order mark, as text.
+
+    Raises:
+        DescriptionError: if they are more than ``MAX_BYTES``, not UTF-8, or declare another encoding.
+    """
+    if len(data) > MAX_BYTES:
+        raise DescriptionError("too-large", f"larger than {MAX_BYTES // 2**20} MB", file=file)
+    remedy = "save the file as UTF-8"
+    declared = _DECLARED.match(data.removeprefix(_BOM))
+    if declared and declared[1].lower() not in (b"utf-8", b"utf8", b"us-ascii", b"ascii"):
+        what = f"declares the encoding {declared[1].decode('ascii', 'replace')!r}"
+        raise DescriptionError("encoding", what, file=file, line=1, remedy=remedy)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise DescriptionError("encoding", "not UTF-8", file=file, line=line, remedy=remedy) from None
+    if "\0" in text:
+        line = text[: text.index("\0")].count("\n") + 1
+        raise DescriptionError("encoding", "holds a NUL character", file=file, line=line, remedy=remedy)
+    return text
+
+
+def parse(text: str, file: str | Path) -> Element:
+    """The root element of an XML text.
+
+    Raises:
+        DescriptionError: if the text is not well-formed, or has a DOCTYPE.
+    """
+    parser = expat.ParserCreate("utf-8")
+    open_elements: list[Element] = []
+    roots: list[Element] = []
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, parser.CurrentLineNumber)
+        (open_elements[-1].children if open_elements else roots).append(element)
+        open_elements.append(element)
+
+    def end(_tag: str) -> None:
+        open_elements.pop()
+
+    def doctype(*_: object) -> NoReturn:
+        raise DescriptionError(
+            "doctype",
+            "has a DOCTYPE, which URDF does not use and which can define entities",
+            file=file,
+            line=parser.CurrentLineNumber,
+            remedy="remove it",
+        )
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.StartDoctypeDeclHandler = doctype
+    try:
+        # The text is encoded anew, so a declared "ascii" must not make expat refuse what decode() accepted.
+        parser.Parse(text.encode(), True)
+    except expat.ExpatError as error:
+        what = f"not well-formed XML ({expat.ErrorString(error.code)})"
+        raise DescriptionError("not-xml", what, file=file, line=error.lineno) from None
+    return roots[0]

@@ -1,0 +1,275 @@
+"""The structural check of a URDF: before either parser is believed, the file must describe one tree.
+
+Both parsers accept files that mean nothing (unknown links, cycles, four-valued axes, NaN), each others of them.
+What passes here is refused by neither and read by both in the same way.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from pinscrew.description.markup import Element
+from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES
+from pinscrew.errors import DescriptionError, PinscrewWarning, UnsupportedError
+
+__all__ = ["MIN_AXIS", "Checked", "check"]
+
+MIN_AXIS: Final = 1e-9
+"""Shortest axis whose direction is believed: well above the rounding of any file with 9 digits or fewer."""
+
+UNIT_AXIS: Final = 1e-6
+"""An axis whose length differs from one by less is taken as rounded, and normalised without a warning."""
+
+_NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_SPACE: Final = " \t\r\n"
+_WORD: Final = re.compile(rf"[^{_SPACE}]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """The elements of a file that passed, in tree order: parents before children, siblings as in the file."""
+
+    name: str
+    links: tuple[str, ...]
+    joints: tuple[Element, ...]
+    """The joint that leads to each link but the first."""
+
+
+def check(root: Element, file: str | Path) -> Checked:
+    """Check that ``root`` describes one tree of named links, with numbers where numbers are due.
+
+    Raises:
+        DescriptionError: naming the first element that is wrong, and what would be right.
+    """
+    return _Check(file).run(root)
+
+
+class _Check:
+    def __init__(self, file: str | Path) -> None:
+        self.file = file
+
+    def run(self, root: Element) -> Checked:
+        if root.tag != "robot":
+            prefixed = root.tag.endswith(":robot")
+            remedy = "write <robot> without a namespace prefix" if prefixed else "the root must be <robot>"
+            raise self.error("root-element", root, f"<{root.tag}> is not a robot description", remedy, "")
+        for element in root.children:
+            if element.tag.startswith("xacro:"):
+                remedy = "name the file .xacro, so that it is expanded first"
+                raise self.error("unexpanded-xacro", element, f"<{element.tag}> is not URDF", remedy, "")
+        links = self._named(root, "link")
+        joints = self._named(root, "joint")
+        if not links:
+            raise self.error("no-links", root, "has no links", "describe at least one <link>", "<robot>")
+        if not root.attributes.get("name", "").strip(_SPACE):
+            raise self.error("no-name", root, "has no name", 'write <robot name="...">', "<robot>")
+        for joint in joints.values():
+            self._joint(joint, links)
+        self._mimics(joints)
+        order, leading = self._tree(root, links, joints)
+        return Checked(root.attributes["name"], order, leading)
+
+    def error(
+        self,
+        code: str,
+        element: Element,
+        what: str,
+        remedy: str = "",
+        label: str | None = None,
+        kind: type[DescriptionError] = DescriptionError,
+    ) -> DescriptionError:
+        if label is None:
+            label = f"{element.tag} {element.attributes.get('name', '')!r}"
+        return kind(code, what, file=self.file, line=element.line, element=label, remedy=remedy)
+
+    def warn(self, code: str, element: Element, what: str) -> None:
+        label = f"{element.tag} {element.attributes['name']!r}"
+        warnings.warn(PinscrewWarning(code, f"{self.file}:{element.line}: {label}: {what}"), stacklevel=2)
+
+    def _named(self, root: Element, tag: str) -> dict[str, Element]:
+        """The elements with this tag, by their names, which must be there and unique."""
+        found: dict[str, Element] = {}
+        for element in root.all(tag):
+            name = element.attributes.get("name", "")
+            if not name.strip(_SPACE):
+                remedy = f'write <{tag} name="...">'
+                raise self.error("no-name", element, "has no name", remedy, f"<{tag}>")
+            if name in found:
+                what = f"the name is taken by the {tag} on line {found[name].line}"
+                raise self.error("duplicate-name", element, what, f"give each {tag} a name of its own")
+            found[name] = element
+        return found
+
+    def _joint(self, joint: Element, links: dict[str, Element]) -> None:
+        kind = joint.attributes.get("type")
+        if kind not in JOINT_TYPES:
+            what = "has no type" if kind is None else f"the type {kind!r} does not exist"
+            raise self.error("joint-type", joint, what, f"use one of {', '.join(JOINT_TYPES)}")
+        if joint.attributes["name"] == "universe":
+            what = "the name is Pinocchio's for the world, and a joint with it would be lost"
+            raise self.error("reserved-name", joint, what, "rename the joint")
+        for tag in ("parent", "child"):
+            self._link_of(joint, tag, links)
+        if (origin := self._only(joint, "origin")) is not None:
+            for attribute in ("xyz", "rpy"):
+                self._numbers(joint, origin, attribute, 3)
+        if kind in SCALAR_TYPES or kind == "planar":
+            self._axis(joint, planar=kind == "planar")
+        limit = self._only(joint, "limit")
+        if kind in SCALAR_TYPES:
+            self._limit(joint, limit, bounded=kind != "continuous")
+
+    def _only(self, joint: Element, tag: str) -> Element | None:
+        """The one child with this tag, or None."""
+        found = list(joint.all(tag))
+        if len(found) > 1:
+            what = f"has {len(found)} <{tag}> elements"
+            raise self.error("duplicate-element", joint, what, "keep one")
+        return found[0] if found else None
+
+    def _link_of(self, joint: Element, tag: str, links: dict[str, Element]) -> None:
+        element = self._only(joint, tag)
+        name = "" if element is None else element.attributes.get("link", "")
+        if not name:
+            raise self.error("no-link", joint, f"has no {tag} link", f'write <{tag} link="..."/>')
+        if name not in links:
+            raise self.error(
+                "unknown-link", joint, f"its {tag} is {name!r}, but no link is called so", "define the link"
+            )
+
+    def _numbers(self, joint: Element, element: Element, attribute: str, count: int) -> list[float] | None:
+        """The numbers in an attribute, or None where it is absent."""
+        text = element.attributes.get(attribute)
+        if text is None:
+            return None
+        words = _WORD.findall(text)
+        remedy = f"write {'one finite number' if count == 1 else f'{count} finite numbers'}, such as "
+        remedy += f'{attribute}="{" ".join(["0.1"] * count)}"'
+        place = f"<{element.tag} {attribute}={text!r}>"
+        if len(words) != count:
+            raise self.error("number-count", joint, f"{place} has {len(words)} values", remedy)
+        for word in words:
+            if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
+                raise self.error("number", joint, f"{place}: {word!r} is not a finite number", remedy)
+        return [float(word) for word in words]
+
+    def _axis(self, joint: Element, *, planar: bool) -> None:
+        element = self._only(joint, "axis")
+        axis: list[float] | None = [1.0, 0.0, 0.0]  # what URDF means by no axis
+        if element is not None:
+            axis = self._numbers(joint, element, "xyz", 3)
+        if axis is None:
+            raise self.error("no-axis", joint, "<axis> has no xyz", 'write <axis xyz="0 0 1"/>')
+        length = math.hypot(*axis)
+        if not length > MIN_AXIS:
+            what = f"the axis is {length:g} long and has no direction" if length else "the axis is zero"
+            raise self.error("zero-axis", joint, what, 'write a unit vector, such as <axis xyz="0 0 1"/>')
+        if planar and not (axis[0] == axis[1] == 0.0 and axis[2] > 0.0):
+            what = "a planar joint moves in the plane of x and y; Pinocchio ignores any other axis"
+            remedy = 'turn the origin and write <axis xyz="0 0 1"/>'
+            raise self.error("planar-axis", joint, what, remedy, kind=UnsupportedError)
+        if abs(length - 1.0) > UNIT_AXIS:
+            self.warn("axis-normalised", joint, f"the axis is {length:.9g} long and was normalised")
+
+    def _limit(self, joint: Element, limit: Element | None, *, bounded: bool) -> None:
+        example = 'write <limit lower="-1" upper="1" effort="10" velocity="1"/>'
+        if limit is None:
+            if bounded:
+                kind = joint.attributes["type"]
+                raise self.error("no-limit", joint, f"a {kind} joint needs a <limit>", example)
+            return
+        values = {
+            attribute: self._numbers(joint, limit, attribute, 1)
+            for attribute in ("lower", "upper", "effort", "velocity")
+        }
+        for attribute in ("effort", "velocity"):
+            if values[attribute] is None:
+                raise self.error("no-limit", joint, f"its <limit> has no {attribute}", example)
+        if not bounded:
+            return
+        (lower,), (upper,) = values["lower"] or [0.0], values["upper"] or [0.0]
+        if lower > upper:
+            what = f"its lower limit {lower:g} is above its upper limit {upper:g}"
+            raise self.error("reversed-limits", joint, what, "swap them")
+        if values["lower"] is None or values["upper"] is None:
+            missing = " and ".join(a for a in ("lower", "upper") if values[a] is None)
+            self.warn("limit-zero", joint, f"its <limit> has no {missing}, which URDF takes as 0")
+
+    def _mimics(self, joints: dict[str, Element]) -> None:
+        masters: dict[str, str] = {}
+        for name, joint in joints.items():
+            mimic = self._only(joint, "mimic")
+            if mimic is None:
+                continue
+            kind = joint.attributes["type"]
+            if kind == "fixed":
+                self.warn("mimic-fixed", joint, "is fixed, so its <mimic> was ignored")
+                continue
+            master = mimic.attributes.get("joint", "")
+            for attribute in ("multiplier", "offset"):
+                self._numbers(joint, mimic, attribute, 1)
+            if master not in joints:
+                what = (
+                    f"mimics {master!r}, but no joint is called so" if master else "its <mimic> has no joint"
+                )
+                raise self.error("mimic-unknown", joint, what, "name the joint to follow")
+            master_kind = joints[master].attributes["type"]
+            for which, bad in ((name, kind), (master, master_kind)):
+                if bad not in SCALAR_TYPES:
+                    what = f"mimics {master!r}, but {which!r} is {bad} and has no single value"
+                    raise self.error("mimic-type", joint, what, "let scalar joints mimic scalar joints")
+            masters[name] = master
+        for name in masters:
+            seen = {name}
+            master = masters[name]
+            while master in masters:
+                if master in seen:
+                    what = f"mimics {masters[name]!r}, which in the end mimics itself"
+                    raise self.error("mimic-cycle", joints[name], what, "let one of them move freely")
+                seen.add(master)
+                master = masters[master]
+
+    def _tree(
+        self, root: Element, links: dict[str, Element], joints: dict[str, Element]
+    ) -> tuple[tuple[str, ...], tuple[Element, ...]]:
+        """The links in tree order, and the joint that leads to each but the first."""
+        leading: dict[str, Element] = {}
+        below: dict[str, list[str]] = {name: [] for name in links}
+        for joint in joints.values():
+            parent, child = (next(joint.all(tag)).attributes["link"] for tag in ("parent", "child"))
+            if parent == child:
+                raise self.error("self-loop", joint, f"joins {parent!r} to itself", "name two links")
+            if child in leading:
+                other = leading[child].attributes["name"]
+                what = f"leads to {child!r}, as joint {other!r} does; a tree has one way to each link"
+                raise self.error("two-parents", joint, what, "remove one of the two joints")
+            leading[child] = joint
+            below[parent].append(child)
+        tops = [name for name in links if name not in leading]
+        if len(tops) > 1:
+            what = f"has {len(tops)} root links: {', '.join(map(repr, tops[:5]))}{', …' * (len(tops) > 5)}"
+            raise self.error("two-roots", root, what, "join them all to one", "<robot>")
+        order = _depth_first(tops, below.__getitem__)
+        if len(order) < len(links):
+            reached = set(order)
+            lost = next(name for name in links if name not in reached)
+            what = "is on a cycle of joints, and no root link leads to it"
+            raise self.error("cycle", links[lost], what, "break the cycle: URDF describes trees")
+        return tuple(order), tuple(leading[name] for name in order[1:])
+
+
+def _depth_first(tops: list[str], below: Callable[[str], list[str]]) -> list[str]:
+    """All that hangs below ``tops``, parents before children; no recursion, since chains can be long."""
+    order: list[str] = []
+    stack = list(reversed(tops))
+    while stack:
+        name = stack.pop()
+        order.append(name)
+        stack.extend(reversed(below(name)))
+    return order

@@ -1,0 +1,94 @@
+"""A checked URDF, read by yourdfpy (parse only), as a `Description`."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from xml.etree import ElementTree
+
+import numpy as np
+import yourdfpy
+
+from pinscrew.description import markup, structure
+from pinscrew.description.model import Description, Joint, Limits, Mimic
+from pinscrew.errors import DescriptionError
+
+__all__ = ["parse"]
+
+_KINEMATIC = ("parent", "child", "origin", "axis", "limit", "mimic")
+
+
+def parse(text: str, file: str | Path, arguments: Mapping[str, str] | None = None) -> Description:
+    """Read the URDF in ``text``.
+
+    Args:
+        text: the URDF; a xacro file must have been expanded.
+        file: what to call it in messages.
+        arguments: the xacro arguments it was expanded with, for the record.
+
+    Raises:
+        DescriptionError: if it does not describe one tree of links; see `structure.check`.
+    """
+    checked = structure.check(markup.parse(text, file), file)
+    parsed = {joint.name: joint for joint in _parse_kinematics(checked).joints}
+    joints = tuple(_joint(parsed[e.attributes["name"]], e.line) for e in checked.joints)
+    return Description(
+        name=checked.name,
+        file=str(file),
+        text=text,
+        links=checked.links,
+        joints=joints,
+        arguments=MappingProxyType(dict(arguments or {})),
+    )
+
+
+def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
+    """What yourdfpy reads of links and joints.
+
+    It is given these alone: it refuses geometry that it does not know, and reads no link at all where an
+    ``xmlns`` is declared.
+    """
+    robot = ElementTree.Element("robot", name=checked.name)
+    for link in checked.links:
+        ElementTree.SubElement(robot, "link", name=link)
+    for joint in checked.joints:
+        copy = ElementTree.SubElement(robot, "joint", joint.attributes)
+        for child in joint.children:
+            if child.tag in _KINEMATIC:
+                ElementTree.SubElement(copy, child.tag, child.attributes)
+    stream = io.BytesIO(ElementTree.tostring(robot, encoding="utf-8"))
+    return yourdfpy.URDF.load(stream, load_meshes=False, build_scene_graph=False).robot
+
+
+def _joint(joint: yourdfpy.Joint, line: int) -> Joint:
+    origin = np.eye(4) if joint.origin is None else joint.origin
+    limit = joint.limit
+    limits = Limits()
+    if limit is not None:
+        bounded = joint.type in ("revolute", "prismatic")
+        limits = Limits(
+            # URDF takes an absent bound as 0; a continuous joint has none.
+            lower=(limit.lower or 0.0) if bounded else -np.inf,
+            upper=(limit.upper or 0.0) if bounded else np.inf,
+            velocity=limit.velocity,
+            effort=limit.effort,
+        )
+    mimic = None
+    if joint.mimic is not None and joint.type != "fixed":
+        mimic = Mimic(joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
+    axis = np.zeros(3)
+    if joint.type not in ("fixed", "floating"):
+        axis = joint.axis / np.linalg.norm(joint.axis)
+    return Joint(
+        name=joint.name,
+        type=joint.type,
+        parent=joint.parent,
+        child=joint.child,
+        T_parent_joint=origin,
+        axis=axis,
+        limits=limits,
+        mimic=mimic,
+        line=line,
+    )

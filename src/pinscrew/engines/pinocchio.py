@@ -1,0 +1,274 @@
+"""Pinocchio, asked in our coordinates.
+
+It is given the URDF itself and reads all of it in its own way. Two things are done outside its model: a
+continuous joint's angle becomes the (cos, sin) that Pinocchio wants, and mimic joints, whose loader refuses
+forward references and chains, are left independent in the model: their coordinates are expanded before each
+call and their Jacobian columns folded after it. Nothing here uses the description's numbers or our screws.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import pinocchio as pin
+
+from pinscrew.description import markup
+from pinscrew.engines.base import Answers, CheckedEngine, JointView
+from pinscrew.errors import EngineError, UnsupportedError
+from pinscrew.robot import UNIVERSE, Robot
+from pinscrew.typing import KINDS, FloatArray, JacobianKind
+
+__all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Pinocchio"]
+
+MAX_COORDINATES: Final = 200
+"""Pinocchio's data grows with the cube of the velocities: 0.6 GB for 200, 8 GB for 500."""
+
+MAX_DEPTH: Final = 1000
+"""Longest chain of moving joints; Pinocchio's stack overflows at about 3500."""
+
+_REFERENCE: Final[dict[JacobianKind, Any]] = {
+    "spatial": pin.ReferenceFrame.WORLD,
+    "body": pin.ReferenceFrame.LOCAL,
+    "hybrid": pin.ReferenceFrame.LOCAL_WORLD_ALIGNED,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _Driven:
+    """How one joint of the model gets its coordinates from ours."""
+
+    q: int
+    nq: int
+    source: int
+    multiplier: float
+    offset: float
+    kind: str
+
+
+class Pinocchio(CheckedEngine):
+    """Kinematics by Pinocchio, from its own reading of the URDF; never our screws.
+
+    Attributes:
+        model: the Pinocchio model, with mimic joints left independent.
+    """
+
+    name = "Pinocchio"
+
+    def __init__(self, robot: Robot) -> None:
+        """Load the robot's URDF.
+
+        Raises:
+            UnsupportedError: if the robot has more than `MAX_COORDINATES` coordinates or `MAX_DEPTH` joints in a
+                chain.
+            EngineError: if Pinocchio refuses the file; the message carries its words.
+        """
+        super().__init__(robot)
+        _check_size(robot)
+        self.model = _build(robot)
+        self._data = self.model.createData()
+        self._mimics = _read_mimics(robot)
+        self._driven, self._fold = self._map_coordinates()
+        self._frames = {name: self._frame_id(name) for name in robot.frame_names}
+        self._plain = bool(np.array_equal(self._fold, np.eye(robot.nv)))
+
+    def joints(self) -> Mapping[str, JointView]:
+        """The joints as Pinocchio's parser saw them, by name."""
+        joint_frames = (pin.FrameType.JOINT, pin.FrameType.FIXED_JOINT)
+        bodies = {f.parentFrame: f.name for f in self.model.frames if f.type == pin.FrameType.BODY}
+        views = {}
+        for index, frame in enumerate(self.model.frames):
+            if frame.type in joint_frames and index > 0:
+                parent = self.model.frames[frame.parentFrame].name
+                views[frame.name] = self._view(frame, parent, bodies.get(index, ""))
+        return views
+
+    def _view(self, frame: Any, parent: str, child: str) -> JointView:
+        if self._robot.floating_base and parent == "universe":
+            parent = UNIVERSE
+        if frame.type == pin.FrameType.FIXED_JOINT:
+            return JointView("fixed", parent, child)
+        joint = self.model.joints[frame.parentJoint]
+        kind = _kind(joint)
+        limits = None
+        if kind in ("revolute", "prismatic") and joint.nq == 1:
+            at = joint.idx_q
+            limits = (float(self.model.lowerPositionLimit[at]), float(self.model.upperPositionLimit[at]))
+        return JointView(kind, parent, child, limits, self._mimics.get(frame.name))
+
+    def _map_coordinates(self) -> tuple[tuple[_Driven, ...], FloatArray]:
+        """The source of each model joint's coordinates, and the matrix F with model velocity = F @ ours."""
+        q_of, v_of = self._robot.mechanism.coordinates.q, self._robot.mechanism.coordinates.v
+        driven = []
+        fold = np.zeros((self.model.nv, self._robot.nv))
+        for name, joint in zip(list(self.model.names)[1:], list(self.model.joints)[1:], strict=True):
+            master, multiplier, offset = name, 1.0, 0.0
+            while master in self._mimics:
+                master, factor, shift = self._mimics[master]
+                multiplier, offset = multiplier * factor, offset + multiplier * shift
+            if master not in q_of:
+                what = f"its joint {name!r} has no coordinate among {', '.join(q_of) or 'none'}"
+                raise EngineError("pinocchio-coordinates", what, where=self._robot.name)
+            kind = _kind(joint)
+            driven.append(_Driven(joint.idx_q, joint.nq, q_of[master], multiplier, offset, kind))
+            rows = np.arange(joint.idx_v, joint.idx_v + joint.nv)
+            fold[rows, v_of[master] + np.arange(joint.nv)] = multiplier
+        return tuple(driven), fold
+
+    def _frame_id(self, name: str) -> int:
+        if self._robot.floating_base and name == UNIVERSE:
+            return 0
+        if not self.model.existFrame(name, pin.FrameType.BODY):
+            raise EngineError("pinocchio-frames", f"it has no link {name!r}", where=self._robot.name)
+        return int(self.model.getFrameId(name, pin.FrameType.BODY))
+
+    def _model_q(self, q: FloatArray) -> FloatArray:
+        """Our coordinates (N, nq) as Pinocchio's (N, model.nq)."""
+        out = np.empty((len(q), self.model.nq))
+        for joint in self._driven:
+            target = out[:, joint.q : joint.q + joint.nq]
+            if joint.kind == "floating":
+                target[:] = q[:, joint.source : joint.source + 7]
+            elif joint.kind == "planar":
+                target[:, :2] = q[:, joint.source : joint.source + 2]
+                _store_angle(target[:, 2:], q[:, joint.source + 2])
+            else:
+                value = joint.multiplier * q[:, joint.source] + joint.offset
+                if joint.nq == 2:
+                    _store_angle(target, value)
+                else:
+                    target[:, 0] = value
+        return out
+
+    def _folded(self, J: FloatArray) -> FloatArray:
+        return J if self._plain else J @ self._fold
+
+    def _poses(self, q: FloatArray, frame: str) -> FloatArray:
+        out = np.empty((len(q), 4, 4))
+        index = self._frames[frame]
+        for i, x in enumerate(self._model_q(q)):
+            pin.forwardKinematics(self.model, self._data, x)
+            out[i] = pin.updateFramePlacement(self.model, self._data, index).homogeneous
+        return out
+
+    def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
+        out = np.empty((len(q), 6, self.model.nv))
+        index, reference = self._frames[frame], _REFERENCE[kind]
+        for i, x in enumerate(self._model_q(q)):
+            J = pin.computeFrameJacobian(self.model, self._data, x, index, reference)
+            out[i] = J.reshape(6, self.model.nv)
+        return self._folded(out)
+
+    def _derivatives(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
+        return self.answers(q, qd, [frame]).derivatives[kind][:, 0]
+
+    def _velocities(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
+        out = np.empty((len(q), 6))
+        index, reference = self._frames[frame], _REFERENCE[kind]
+        for i, (x, rates) in enumerate(zip(self._model_q(q), qd @ self._fold.T, strict=True)):
+            pin.forwardKinematics(self.model, self._data, x, rates)
+            out[i] = pin.getFrameVelocity(self.model, self._data, index, reference).vector
+        return out
+
+    def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
+        """Everything about ``frames`` at a flat batch, with one pass of Pinocchio each; see the base class."""
+        q, qd, _ = self._motion(q, qd)
+        model, data = self.model, self._data
+        indices = [self._frames[self._robot.frame(name)] for name in frames]
+        shape = (len(q), len(indices), 6, model.nv)
+        poses = np.empty((len(q), len(indices), 4, 4))
+        jacobians = {kind: np.zeros(shape) for kind in KINDS}
+        derivatives = {kind: np.zeros(shape) for kind in KINDS}
+        for i, (x, rates) in enumerate(zip(self._model_q(q), qd @ self._fold.T, strict=True)):
+            pin.computeJointJacobiansTimeVariation(model, data, x, rates)
+            pin.updateFramePlacements(model, data)
+            for j, index in enumerate(indices):
+                poses[i, j] = data.oMf[index].homogeneous
+                if not model.nv:
+                    continue  # getFrameJacobian ends in a segmentation fault there
+                for kind, reference in _REFERENCE.items():
+                    J = pin.getFrameJacobian(model, data, index, reference)
+                    dJ = pin.getFrameJacobianTimeVariation(model, data, index, reference)
+                    jacobians[kind][i, j] = J.reshape(6, model.nv)
+                    derivatives[kind][i, j] = dJ.reshape(6, model.nv)
+        return Answers(
+            poses,
+            {kind: self._folded(J) for kind, J in jacobians.items()},
+            {kind: self._folded(dJ) for kind, dJ in derivatives.items()},
+        )
+
+
+def _store_angle(out: FloatArray, angle: FloatArray) -> None:
+    out[:, 0], out[:, 1] = np.cos(angle), np.sin(angle)
+
+
+def _kind(joint: Any) -> str:
+    """What a joint of Pinocchio's is, in our words."""
+    name = joint.shortname()
+    if "FreeFlyer" in name:
+        return "floating"
+    if "Planar" in name:
+        return "planar"
+    return "prismatic" if name.startswith("JointModelP") else "revolute"
+
+
+def _read_mimics(robot: Robot) -> dict[str, tuple[str, float, float]]:
+    """The mimic joints of the URDF (checked when it was loaded): joint followed, multiplier, offset."""
+    mimics = {}
+    for joint in markup.parse(robot.description.text, robot.description.file).all("joint"):
+        for mimic in joint.all("mimic"):
+            if joint.attributes["type"] != "fixed":
+                multiplier = float(mimic.attributes.get("multiplier", "1"))
+                offset = float(mimic.attributes.get("offset", "0"))
+                mimics[joint.attributes["name"]] = (mimic.attributes["joint"], multiplier, offset)
+    return mimics
+
+
+def _check_size(robot: Robot) -> None:
+    depths = {robot.base: 0}
+    for joint in robot.description.joints:
+        depths[joint.child] = depths[joint.parent] + 1
+    velocities = sum(motion.twists.shape[1] for motion in robot.mechanism.motions)
+    for count, limit, what in (
+        (velocities, MAX_COORDINATES, "velocities (mimic joints counted)"),
+        (max(depths.values()), MAX_DEPTH, "joints in a chain"),
+    ):
+        if count > limit:
+            raise UnsupportedError(
+                "pinocchio-size",
+                f"{count} {what} are more than the {limit} that the Pinocchio engine takes",
+                file=robot.description.file,
+                remedy="use the PoE engine, which has no such limit",
+            )
+
+
+def _build(robot: Robot) -> Any:
+    root = (pin.JointModelFreeFlyer(),) if robot.floating_base else ()
+    with tempfile.TemporaryFile() as said:
+        try:
+            with _standard_error_to(said.fileno()):
+                return pin.buildModelFromXML(robot.description.text, *root)
+        except (RuntimeError, ValueError, IndexError) as error:
+            said.seek(0)
+            words = " ".join(f"{said.read().decode(errors='replace')} {error}".split())
+            what = f"Pinocchio refuses the file: {words}"
+            raise EngineError("pinocchio-refuses", what, where=robot.description.file) from None
+
+
+@contextmanager
+def _standard_error_to(descriptor: int) -> Iterator[None]:
+    """Send there what C and C++ write to standard error; urdfdom's reasons go nowhere else."""
+    sys.stderr.flush()
+    kept = os.dup(2)
+    os.dup2(descriptor, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)

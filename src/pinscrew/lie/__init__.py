@@ -1,0 +1,23 @@
+"""Lie groups of rigid motion: rotations (:mod:`so3`) and poses (:mod:`se3`), on numpy arrays.
+
+Both modules hold the same ten functions. All are batched over leading axes and return float64.
+
+========================= ==================================== =====================================
+operation                 so3                                  se3
+========================= ==================================== =====================================
+tangent vector            ω ``(..., 3)``, rad                  ξ = (v, ω) ``(..., 6)``, m and rad
+group element             R ``(..., 3, 3)``                    T ``(..., 4, 4)``
+``hat``, ``vee``          ω̂                                    [[ω̂, v], [0, 0]]
+``exp``, ``log``          e^ω̂                                  e^ξ̂ = [[R, J v], [0, 1]]
+``inverse``               Rᵀ                                   [[Rᵀ, −Rᵀp], [0, 1]]
+``adjoint``               R                                    [[R, p̂R], [0, R]]
+``ad``                    ω̂                                    [[ω̂, v̂], [0, ω̂]]
+``left_jacobian``         J(ω) = Σ ω̂ⁿ/(n+1)!                   [[J, Q], [0, J]] = Σ ad_ξⁿ/(n+1)!
+``left_jacobian_inverse`` J⁻¹                                  [[J⁻¹, −J⁻¹QJ⁻¹], [0, J⁻¹]]
+``project``               the nearest rotation                 the nearest pose
+========================= ==================================== =====================================
+"""
+
+from pinscrew.lie import se3, so3
+
+__all__ = ["se3", "so3"]
