@@ -145,3 +145,9 @@ def solve(A: Any) -> Any:
 def error(actual: FloatArray, expected: Any) -> float:
     """The largest difference of two entries, taken before rounding the truth."""
     return float(np.max(np.abs(exact(actual) - expected)))
+
+
+def distance_to_full_turn(angle: float) -> float:
+    """|θ - 2πk| for the nearest k ≥ 1."""
+    turns = max(1, int(mpmath.nint(angle / (2 * mpmath.pi))))
+    return float(abs(angle - 2 * mpmath.pi * turns))

@@ -7,6 +7,7 @@ word for the kind of mistake, so that a program need not read the sentence.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Final
 
 __all__ = [
     "AmbiguousTipError",
@@ -20,6 +21,9 @@ __all__ = [
     "UnsupportedError",
     "XacroError",
 ]
+
+MOST_NAMES: Final = 40
+"""Names that a message lists; ``known`` has them all."""
 
 
 class PinscrewError(Exception):
@@ -90,7 +94,9 @@ class UnknownNameError(PinscrewError, LookupError):
     def __init__(self, code: str, kind: str, name: str, known: tuple[str, ...], *, where: str = "") -> None:
         self.name = name
         self.known = known
-        listed = ", ".join(known) if known else "none"
+        listed = ", ".join(known[:MOST_NAMES]) if known else "none"
+        if len(known) > MOST_NAMES:
+            listed += f", … ({len(known)} in all)"
         super().__init__(code, f"there is no {kind} {name!r}", where=where, remedy=f"known are: {listed}")
 
 

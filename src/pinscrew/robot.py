@@ -246,7 +246,12 @@ class Robot:
 
 
 def load(
-    source: str | Path, *, floating_base: bool = False, tip: str | None = None, **arguments: float | str
+    source: str | Path,
+    *,
+    floating_base: bool = False,
+    tip: str | None = None,
+    arguments: Mapping[str, float | str] | None = None,
+    **more: float | str,
 ) -> Robot:
     """Load a robot.
 
@@ -255,14 +260,15 @@ def load(
             a URDF of example-robot-data.
         floating_base: let the root link float: seven coordinates (x, y, z and a quaternion x, y, z, w) come first.
         tip: the default tip frame.
-        arguments: the xacro file's arguments, such as ``l1=0.4``.
+        arguments: the xacro file's arguments, where their names are no Python identifiers or are taken here.
+        more: the xacro file's arguments, such as ``l1=0.4``.
 
     Raises:
         UnknownNameError: if there is no such robot, file, or frame ``tip``.
         DescriptionError: if the file can't be used.
     """
     entry = catalogue.find(source)
-    given = {name: str(value) for name, value in arguments.items()}
+    given = {name: str(value) for name, value in {**(arguments or {}), **more}.items()}
     text = markup.read(entry.file)
     if expand.is_xacro(entry.file):
         text = expand.expand(entry.file, given)
@@ -270,9 +276,7 @@ def load(
         what = f"a plain URDF has no arguments, but {', '.join(given)} came"
         raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")
     description = urdf.parse(text, entry.file, given)
-    return Robot.from_description(
-        description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base
-    )
+    return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)
 
 
 def _floating(description: Description) -> Description:

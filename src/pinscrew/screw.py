@@ -60,23 +60,21 @@ class Screw:
                 "pitch",
                 f"pitch is {pitch}",
                 where="Screw",
-                remedy="expected metres per radian, or inf for a translation; reverse the direction to go back",
+                remedy="expected m/rad, or inf for a translation (to go back, reverse the direction)",
             )
         if not 0.0 < magnitude < math.inf:
             raise InputError(
                 "magnitude",
                 f"magnitude is {magnitude}",
                 where="Screw",
-                remedy="expected a positive number; reverse the direction to go back",
+                remedy="expected a positive number (to go back, reverse the direction)",
             )
         fields = {"point": point, "direction": direction, "pitch": pitch, "magnitude": magnitude}
         for name, value in fields.items():
             object.__setattr__(self, name, value)
 
     @classmethod
-    def through(
-        cls, point: ArrayLike, direction: ArrayLike, pitch: float = 0.0, magnitude: float = 1.0
-    ) -> Screw:
+    def through(cls, point: ArrayLike, direction: ArrayLike, pitch: float = 0.0, magnitude: float = 1.0) -> Screw:
         """The screw through a point, along a direction of any length but zero.
 
         Args:
@@ -178,9 +176,7 @@ def _vector(value: ArrayLike, size: int, name: str) -> FloatArray:
     """A read-only copy, with 0 for minus zero, refused unless it is one finite vector of the given size."""
     array = read(value, (size,), "Screw", name)
     if array.ndim != 1:
-        raise InputError(
-            "shape", f"{name} has shape {array.shape}", where="Screw", remedy=f"expected ({size},)"
-        )
+        raise InputError("shape", f"{name} has shape {array.shape}", where="Screw", remedy=f"expected ({size},)")
     require_finite(array, 1, "Screw", name)
     array = array + 0.0
     array.flags.writeable = False

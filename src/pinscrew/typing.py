@@ -11,7 +11,7 @@ hybrid      ``diag(R, R) @ body``        ``LOCAL_WORLD_ALIGNED``
 
 from __future__ import annotations
 
-from typing import Any, Final, Literal, Protocol, TypeAlias, cast
+from typing import Any, Final, Literal, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,7 +35,8 @@ class _Named(Protocol):
     def name(self) -> Any: ...
 
 
-KindLike: TypeAlias = JacobianKind | Literal["WORLD", "LOCAL", "LOCAL_WORLD_ALIGNED"] | _Named
+KindLike: TypeAlias = str | _Named
+"""A `JacobianKind`, Pinocchio's name for it, or a member of ``pinocchio.ReferenceFrame``."""
 
 _ALIASES: Final[dict[str, JacobianKind]] = {
     "WORLD": "spatial",
@@ -51,7 +52,7 @@ def jacobian_kind(kind: KindLike) -> JacobianKind:
         InputError: if ``kind`` names no Jacobian.
     """
     if kind in KINDS:
-        return cast("JacobianKind", kind)
+        return kind
     name = kind if isinstance(kind, str) else getattr(kind, "name", None)
     if isinstance(name, str) and name in _ALIASES:
         return _ALIASES[name]

@@ -64,7 +64,7 @@ def main() -> None:
             answer.update(error=str(error), code=error.code, remedy=error.remedy)
         except RecursionError:
             answer.update(error="includes or expands itself without end", code="xacro-limit")
-        except Exception as error:  # noqa: BLE001 (whatever xacro raises is an error of the file)
+        except Exception as error:
             answer.update(error=_one_line(str(error)) or type(error).__name__, code="xacro")
     answer["warnings"] = [line for line in map(_one_line, said.getvalue().splitlines()) if line]
     json.dump(answer, sys.stdout)

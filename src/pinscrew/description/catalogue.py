@@ -11,9 +11,10 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
+from pinscrew.description import expand, markup
 from pinscrew.errors import MissingExtraError, UnknownNameError
 
-__all__ = ["Entry", "bundled", "example_robots", "find", "robots_directory"]
+__all__ = ["Entry", "bundled", "declared_arguments", "example_robots", "find", "robots_directory"]
 
 EXAMPLE_DATA: Final = "example-robot-data"
 
@@ -111,10 +112,10 @@ def find(source: str | Path) -> Entry:
             return entry
     names += [entry.name for entry in others]
     near = difflib.get_close_matches(source, names, n=5, cutoff=0.5)
-    near += [
-        name for name in names if source.lower() in re.split(r"[/_-]", name.lower()) and name not in near
-    ]
-    raise UnknownNameError("unknown-robot", "robot or file", source, tuple(near or names))
+    near += [name for name in names if source.lower() in re.split(r"[/_-]", name.lower()) and name not in near]
+    raise UnknownNameError(
+        "unknown-robot", "robot or file", source, tuple(near) or tuple(entry.name for entry in bundled())
+    )
 
 
 def _of_path(path: Path) -> Entry:
@@ -127,3 +128,11 @@ def _of_path(path: Path) -> Entry:
     for suffix in (".xacro", ".xml", ".urdf"):
         name = name.removesuffix(suffix)
     return Entry(name, path)
+
+
+def declared_arguments(file: Path) -> dict[str, str]:
+    """The arguments that a bundled xacro file declares, with their defaults."""
+    if not expand.is_xacro(file):
+        return {}
+    root = markup.parse(markup.read(file), file)
+    return {e.attributes["name"]: e.attributes.get("default", "") for e in root.all("xacro:arg")}

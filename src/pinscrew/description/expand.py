@@ -38,7 +38,12 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
     request = json.dumps({"file": str(path), "arguments": dict(arguments)})
     try:
         child = subprocess.run(  # noqa: S603 (our own worker, under our own interpreter)
-            [sys.executable, str(_WORKER)], input=request, capture_output=True, text=True, timeout=TIMEOUT
+            [sys.executable, str(_WORKER)],
+            input=request,
+            capture_output=True,
+            check=False,
+            text=True,
+            timeout=TIMEOUT,
         )
     except subprocess.TimeoutExpired:
         what = f"its expansion takes more than {TIMEOUT:g} s"

@@ -58,17 +58,17 @@ class _Check:
         if root.tag != "robot":
             prefixed = root.tag.endswith(":robot")
             remedy = "write <robot> without a namespace prefix" if prefixed else "the root must be <robot>"
-            raise self.error("root-element", root, f"<{root.tag}> is not a robot description", remedy, "")
+            raise self.error("root-element", root, f"<{root.tag}> is not a robot description", remedy, label="")
         for element in root.children:
             if element.tag.startswith("xacro:"):
                 remedy = "name the file .xacro, so that it is expanded first"
-                raise self.error("unexpanded-xacro", element, f"<{element.tag}> is not URDF", remedy, "")
+                raise self.error("unexpanded-xacro", element, f"<{element.tag}> is not URDF", remedy, label="")
         links = self._named(root, "link")
         joints = self._named(root, "joint")
         if not links:
-            raise self.error("no-links", root, "has no links", "describe at least one <link>", "<robot>")
+            raise self.error("no-links", root, "has no links", "describe at least one <link>", label="<robot>")
         if not root.attributes.get("name", "").strip(_SPACE):
-            raise self.error("no-name", root, "has no name", 'write <robot name="...">', "<robot>")
+            raise self.error("no-name", root, "has no name", 'write <robot name="...">', label="<robot>")
         for joint in joints.values():
             self._joint(joint, links)
         self._mimics(joints)
@@ -81,6 +81,7 @@ class _Check:
         element: Element,
         what: str,
         remedy: str = "",
+        *,
         label: str | None = None,
         kind: type[DescriptionError] = DescriptionError,
     ) -> DescriptionError:
@@ -99,7 +100,7 @@ class _Check:
             name = element.attributes.get("name", "")
             if not name.strip(_SPACE):
                 remedy = f'write <{tag} name="...">'
-                raise self.error("no-name", element, "has no name", remedy, f"<{tag}>")
+                raise self.error("no-name", element, "has no name", remedy, label=f"<{tag}>")
             if name in found:
                 what = f"the name is taken by the {tag} on line {found[name].line}"
                 raise self.error("duplicate-name", element, what, f"give each {tag} a name of its own")
@@ -215,9 +216,7 @@ class _Check:
             for attribute in ("multiplier", "offset"):
                 self._numbers(joint, mimic, attribute, 1)
             if master not in joints:
-                what = (
-                    f"mimics {master!r}, but no joint is called so" if master else "its <mimic> has no joint"
-                )
+                what = f"mimics {master!r}, but no joint is called so" if master else "its <mimic> has no joint"
                 raise self.error("mimic-unknown", joint, what, "name the joint to follow")
             master_kind = joints[master].attributes["type"]
             for which, bad in ((name, kind), (master, master_kind)):
@@ -225,12 +224,12 @@ class _Check:
                     what = f"mimics {master!r}, but {which!r} is {bad} and has no single value"
                     raise self.error("mimic-type", joint, what, "let scalar joints mimic scalar joints")
             masters[name] = master
-        for name in masters:
+        for name, first in masters.items():
             seen = {name}
-            master = masters[name]
+            master = first
             while master in masters:
                 if master in seen:
-                    what = f"mimics {masters[name]!r}, which in the end mimics itself"
+                    what = f"mimics {first!r}, which in the end mimics itself"
                     raise self.error("mimic-cycle", joints[name], what, "let one of them move freely")
                 seen.add(master)
                 master = masters[master]
@@ -254,7 +253,7 @@ class _Check:
         tops = [name for name in links if name not in leading]
         if len(tops) > 1:
             what = f"has {len(tops)} root links: {', '.join(map(repr, tops[:5]))}{', …' * (len(tops) > 5)}"
-            raise self.error("two-roots", root, what, "join them all to one", "<robot>")
+            raise self.error("two-roots", root, what, "join them all to one", label="<robot>")
         order = _depth_first(tops, below.__getitem__)
         if len(order) < len(links):
             reached = set(order)

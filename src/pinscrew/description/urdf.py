@@ -6,14 +6,13 @@ import io
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import yourdfpy
 
 from pinscrew.description import markup, structure
 from pinscrew.description.model import Description, Joint, Limits, Mimic
-from pinscrew.errors import DescriptionError
 
 __all__ = ["parse"]
 
@@ -50,15 +49,15 @@ def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
     It is given these alone: it refuses geometry that it does not know, and reads no link at all where an
     ``xmlns`` is declared.
     """
-    robot = ElementTree.Element("robot", name=checked.name)
+    robot = ET.Element("robot", name=checked.name)
     for link in checked.links:
-        ElementTree.SubElement(robot, "link", name=link)
+        ET.SubElement(robot, "link", name=link)
     for joint in checked.joints:
-        copy = ElementTree.SubElement(robot, "joint", joint.attributes)
+        copy = ET.SubElement(robot, "joint", joint.attributes)
         for child in joint.children:
             if child.tag in _KINEMATIC:
-                ElementTree.SubElement(copy, child.tag, child.attributes)
-    stream = io.BytesIO(ElementTree.tostring(robot, encoding="utf-8"))
+                ET.SubElement(copy, child.tag, child.attributes)
+    stream = io.BytesIO(ET.tostring(robot, encoding="utf-8"))
     return yourdfpy.URDF.load(stream, load_meshes=False, build_scene_graph=False).robot
 
 

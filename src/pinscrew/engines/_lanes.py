@@ -27,17 +27,19 @@ def store(out: FloatArray, values: FloatArray) -> None:
 
 def times(R: FloatArray, A: FloatArray) -> FloatArray:
     """R (3, 3, B) times a constant (3,) or (3, k): (3, B) or (3, k, B)."""
-    return np.matmul(A.T, R)
+    product: FloatArray = np.matmul(A.T, R)
+    return product
 
 
 def apply(R: FloatArray, x: FloatArray) -> FloatArray:
     """R (3, 3, B) times x (3, B)."""
-    return R[:, 0] * x[0] + R[:, 1] * x[1] + R[:, 2] * x[2]
+    product: FloatArray = R[:, 0] * x[0] + R[:, 1] * x[1] + R[:, 2] * x[2]
+    return product
 
 
 def matmul(A: FloatArray, B: FloatArray) -> FloatArray:
     """(3, 3, B) times (3, 3, B)."""
-    out = A[:, 0, None] * B[0]
+    out: FloatArray = A[:, 0, None] * B[0]
     term = np.empty_like(out)
     for k in (1, 2):
         out += np.multiply(A[:, k, None], B[k], out=term)

@@ -71,17 +71,13 @@ class Engine(Protocol):
     def fk(self, q: ArrayLike, frame: str | None = None) -> FloatArray:
         """Pose of ``frame`` in the base: ``q`` (..., nq) to (..., 4, 4)."""
 
-    def jacobian(self, q: ArrayLike, frame: str | None = None, kind: KindLike = "spatial") -> FloatArray:
+    def jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Jacobian of ``frame``: ``q`` (..., nq) to (..., 6, nv)."""
 
-    def jacobian_derivative(
-        self, q: ArrayLike, qd: ArrayLike, frame: str | None = None, kind: KindLike = "spatial"
-    ) -> FloatArray:
+    def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian: ``q`` (..., nq) and ``qd`` (..., nv) to (..., 6, nv)."""
 
-    def velocity(
-        self, q: ArrayLike, qd: ArrayLike, frame: str | None = None, kind: KindLike = "spatial"
-    ) -> FloatArray:
+    def velocity(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Twist of ``frame``: ``q`` (..., nq) and ``qd`` (..., nv) to (..., 6)."""
 
     def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
@@ -126,7 +122,7 @@ class CheckedEngine(ABC):
         flat, batch = self._coordinates(q)
         return self._poses(flat, frame).reshape(*batch, 4, 4)
 
-    def jacobian(self, q: ArrayLike, frame: str | None = None, kind: KindLike = "spatial") -> FloatArray:
+    def jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Jacobian of ``frame``: the twist (v, ω) per unit of each velocity.
 
         Args:
@@ -145,9 +141,7 @@ class CheckedEngine(ABC):
         flat, batch = self._coordinates(q)
         return self._jacobians(flat, frame, kind).reshape(*batch, 6, self._robot.nv)
 
-    def jacobian_derivative(
-        self, q: ArrayLike, qd: ArrayLike, frame: str | None = None, kind: KindLike = "spatial"
-    ) -> FloatArray:
+    def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian along the velocities ``qd``.
 
         Args:
@@ -166,9 +160,7 @@ class CheckedEngine(ABC):
         flat, flat_rates, batch = self._motion(q, qd)
         return self._derivatives(flat, flat_rates, frame, kind).reshape(*batch, 6, self._robot.nv)
 
-    def velocity(
-        self, q: ArrayLike, qd: ArrayLike, frame: str | None = None, kind: KindLike = "spatial"
-    ) -> FloatArray:
+    def velocity(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Twist (v, ω) of ``frame``: spatial, body or hybrid.
 
         Args:
@@ -255,9 +247,7 @@ class CheckedEngine(ABC):
         if array.ndim == 0 or array.shape[-1] != n:
             listed = ", ".join(names) if len(names) <= 12 else f"{', '.join(names[:12])}, …"
             what = f"{symbol} has shape {array.shape}"
-            remedy = (
-                f"expected (..., {n}): {listed}" if n else "expected (..., 0): the robot has no coordinates"
-            )
+            remedy = f"expected (..., {n}): {listed}" if n else "expected (..., 0): the robot has no coordinates"
             raise InputError("shape", what, where=self._robot.name, remedy=remedy)
         if not np.isfinite(array).all():
             index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])

@@ -124,9 +124,7 @@ class _Chain:
     Rotations have shape (3, 3, B), vectors (3, B), twists (6, B).
     """
 
-    def __init__(
-        self, robot: Robot, factors: Sequence[_Factor], q: FloatArray, qd: FloatArray | None = None
-    ) -> None:
+    def __init__(self, robot: Robot, factors: Sequence[_Factor], q: FloatArray, qd: FloatArray | None = None) -> None:
         self._robot = robot
         self._factors = factors
         self._motions = robot.mechanism.motions
@@ -134,9 +132,7 @@ class _Chain:
         self._qd = None if qd is None else np.ascontiguousarray(qd.T)
         self._size = len(q)
         # Displacement of each joint's child: p_base = R @ p_home + p, for points moving with it. -1 is the base.
-        self._displacements: dict[int, tuple[FloatArray, FloatArray]] = {
-            -1: (np.eye(3)[:, :, None], np.zeros((3, 1)))
-        }
+        self._displacements: dict[int, tuple[FloatArray, FloatArray]] = {-1: (np.eye(3)[:, :, None], np.zeros((3, 1)))}
         self._columns: dict[int, FloatArray] = {}
         self._twists: dict[int, FloatArray] = {-1: np.zeros((6, 1))}
 

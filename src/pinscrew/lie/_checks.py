@@ -32,9 +32,7 @@ def read(value: ArrayLike, trailing: tuple[int, ...], where: str, name: str) -> 
         complex_ = np.iscomplexobj(value)  # numpy would drop imaginary parts with a mere warning
         array = np.asarray(value, dtype=None if complex_ else np.float64)
     except (TypeError, ValueError) as error:
-        raise InputError(
-            "number", f"{name} is no array of numbers: {error}", where=where, remedy=expected
-        ) from None
+        raise InputError("number", f"{name} is no array of numbers: {error}", where=where, remedy=expected) from None
     if complex_:
         raise InputError("number", f"{name} is complex", where=where, remedy="expected real numbers")
     if array.shape[-len(trailing) :] != trailing:
@@ -62,8 +60,7 @@ def require_rotation(R: FloatArray, where: str, name: str) -> None:
             f"{_at(name, index)} is no rotation: the largest entry of |RᵀR - I| is {defect[index]:.3g}, "
             f"det R is {determinant[index]:.6g}",
             where=where,
-            remedy=f"expected at most {RIGID_TOLERANCE:g}, and +1; "
-            "project gives the nearest rotation where det R > 0",
+            remedy=f"expected at most {RIGID_TOLERANCE:g}, and +1; project gives the nearest rotation where det R > 0",
         )
 
 

@@ -10,8 +10,8 @@ The 6 by 6 functions follow from SO(3) by the principle of transference: ad_ξ =
 ω̂ + δv̂ of dual numbers, δ² = 0, so a power series f of it has f(ω̂) on the diagonal, and in the corner the
 derivative of f(ω̂) along v.
 
-NaN stays in its own matrix of the batch, and infinity in :func:`exp` and the Jacobians gives NaN. :func:`log` and
-:func:`project` check their argument and refuse both.
+NaN stays in its own matrix of the batch, and infinity in :func:`exp` and the Jacobians gives NaN. :func:`log`
+and :func:`project` check their argument and refuse both.
 
 Sources: Murray, Li, Sastry, *A Mathematical Introduction to Robotic Manipulation*, CRC 1994 (MLS), §2.3–2.4;
 Barfoot, *State Estimation for Robotics*, Cambridge 2017, §7.1.
@@ -222,9 +222,7 @@ def project(M: ArrayLike) -> FloatArray:
     M = _checks.read(M, (4, 4), "se3.project", "M")
     _checks.require_finite(M, 2, "se3.project", "M")
     _checks.require_bottom_row(M, "se3.project", "M")
-    return _affine(
-        _checks.svd_rotation(M[..., :3, :3], "se3.project", "the rotation part of M"), M[..., :3, 3], 1.0
-    )
+    return _affine(_checks.svd_rotation(M[..., :3, :3], "se3.project", "the rotation part of M"), M[..., :3, 3], 1.0)
 
 
 def _split(xi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -1,0 +1,5 @@
+"""``python -m pinscrew``."""
+
+from pinscrew.cli import main
+
+main()

@@ -1,0 +1,69 @@
+"""Layer 6: the command ``pinscrew``; one small module per subcommand."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from importlib import import_module
+from typing import Any, Final
+
+import click
+
+from pinscrew import __version__
+from pinscrew.errors import PinscrewError, PinscrewWarning
+
+__all__ = ["command", "main"]
+
+_COMMANDS: Final = {
+    "completion": "pinscrew.cli.completion",
+    "fk": "pinscrew.cli.fk",
+    "jacobian": "pinscrew.cli.jacobian",
+    "list": "pinscrew.cli.list_robots",
+    "screws": "pinscrew.cli.screws",
+    "verify": "pinscrew.cli.verify",
+}
+
+
+class _Group(click.Group):
+    """Subcommands, each imported when it is called or listed."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 (click's signature)
+        return sorted(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:  # noqa: ARG002
+        if name not in _COMMANDS:
+            return None
+        found: click.Command = import_module(_COMMANDS[name]).command
+        return found
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="pinscrew")
+def command() -> None:
+    """Kinematics from URDF that you can trust.
+
+    Two engines, Pinocchio and the product of exponentials, answer the same questions about a robot, each from
+    its own reading of the file.
+
+    ROBOT is a name (see "pinscrew list"), or a .urdf or .xacro file; xacro arguments follow it as in ROS:
+
+    \b
+      pinscrew verify
+      pinscrew screws scara l1:=0.4 l2:=0.3
+      pinscrew fk path/to/arm.urdf -q 45deg,pi/4,0.1
+    """
+
+
+def main() -> None:
+    """Run the command; every error of pinscrew ends in one line and exit status 2."""
+    warnings.showwarning = _show_warning
+    try:
+        command(prog_name="pinscrew")
+    except PinscrewError as error:
+        click.echo(f"pinscrew: {error}", err=True)
+        sys.exit(2)
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
+    if issubclass(category, PinscrewWarning):
+        click.echo(f"pinscrew: warning: {message}", err=True)

@@ -1,0 +1,126 @@
+"""`verify`: the same questions to two engines, on every frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from pinscrew.engines.base import Engine
+from pinscrew.errors import InputError
+from pinscrew.robot import Robot
+from pinscrew.verification import comparison, diagnosis, differences, structure
+from pinscrew.verification.configurations import Configurations, configurations
+from pinscrew.verification.report import Check, Report
+
+__all__ = ["TOLERANCE", "verify"]
+
+TOLERANCE: Final = 1e-12
+"""Of errors in which metres are divided by max(1, size): ten times the worst of some thousand public robots."""
+
+BLOCK_BYTES: Final = 2**26
+"""Memory for the answers of one engine to one block of configurations."""
+
+
+def verify(
+    robot: Robot,
+    samples: int = 1000,
+    seed: int = 0,
+    *,
+    tolerance: float = TOLERANCE,
+    frames: Sequence[str] | None = None,
+    engines: tuple[Engine, Engine] | None = None,
+) -> Report:
+    """Compare two engines on a robot: structure, home poses, screw axes, FK, Jacobians and their derivatives.
+
+    They are compared on every frame at zero, at the limits' corners and middle, at random within the limits and
+    far outside; each engine's Jacobians are also held against each other and against finite differences of its
+    own FK. Metres are divided by max(1, size of the robot); NaN is a failure.
+
+    Args:
+        robot: the robot.
+        samples: random configurations within the limits; a quarter as many are taken far outside.
+        seed: of the random configurations.
+        tolerance: largest scaled error that is rounding.
+        frames: the frames to compare; by default all.
+        engines: two engines to compare instead of `PoE` and `Pinocchio` of this robot.
+
+    Raises:
+        InputError: if ``samples`` is negative or ``tolerance`` not positive.
+        UnknownNameError: if there is no such frame.
+        EngineError, UnsupportedError: if Pinocchio does not take the robot.
+    """
+    if samples < 0:
+        raise InputError("samples", f"samples={samples}", remedy="give 0 or more")
+    if not tolerance > 0.0:
+        raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a positive number, such as 1e-12")
+    names = tuple(robot.frame(frame) for frame in (robot.frame_names if frames is None else frames))
+    pair = engines or _default_engines(robot)
+    remarks, comparable = structure.compare(*pair)
+    where = configurations(robot, samples, seed)
+    checks = [Check("structure", float(len(remarks)), 0.0, remarks=remarks)]
+    found: tuple[str, ...] = ()
+    if comparable:
+        known = tuple(name for name in names if all(name in engine.robot.frame_names for engine in pair))
+        checks += _numbers(robot, pair, known, where, tolerance)
+        if not all(check.ok for check in checks):
+            found = diagnosis.diagnose(pair, tolerance)
+    return Report(
+        robot=robot.name,
+        file=robot.description.file,
+        arguments=dict(robot.description.arguments),
+        engines=(pair[0].name, pair[1].name),
+        frames=len(names),
+        samples=samples,
+        configurations=len(where.q),
+        seed=seed,
+        tolerance=tolerance,
+        reach=robot.reach,
+        checks=tuple(checks),
+        diagnosis=found,
+    )
+
+
+def _default_engines(robot: Robot) -> tuple[Engine, Engine]:
+    from pinscrew.engines.pinocchio import Pinocchio
+    from pinscrew.engines.poe import PoE
+
+    return PoE(robot), Pinocchio(robot)
+
+
+def _numbers(
+    robot: Robot,
+    engines: tuple[Engine, Engine],
+    frames: tuple[str, ...],
+    where: Configurations,
+    tolerance: float,
+) -> list[Check]:
+    """All checks of numbers, in the order in which a report shows them."""
+    home = comparison.Worst("home poses", tolerance)
+    screws = comparison.Worst("screw axes", tolerance)
+    answers = comparison.compare_answers(tolerance)
+    identities = [comparison.compare_identities(engine.name, tolerance) for engine in engines]
+    for block in where.blocks(_block_length(robot, len(frames))):
+        scales, start = where.scales[block], block.start
+        a, b = (engine.answers(where.q[block], where.qd[block], frames) for engine in engines)
+        if start == 0:  # configuration 0 is zero
+            home.see(comparison.pose_error(a.poses[:1], b.poses[:1], scales[:1]))
+            at_zero = a.jacobians["spatial"][:1], b.jacobians["spatial"][:1]
+            screws.see(comparison.jacobian_error(*at_zero, scales[:1]))
+        comparison.see_answers(answers, a, b, scales, start)
+        for checks, own in zip(identities, (a, b), strict=True):
+            comparison.see_identities(checks, own, scales, start)
+    worst = [home, screws, *answers.values(), *identities[0], *identities[1]]
+    done = [w.check(robot, frames, where) for w in worst]
+    leaves = differences.difference_frames(robot, frames)
+    points = where.take(np.linspace(0, where.inside - 1, differences.POINTS).astype(int))
+    for engine in engines:
+        check = differences.compare_differences(engine, points.q, points.scales, leaves)
+        done.append(check.check(robot, leaves, points))
+    return done
+
+
+def _block_length(robot: Robot, frames: int) -> int:
+    numbers = frames * (16 + 2 * 3 * 6 * robot.nv)
+    return max(1, BLOCK_BYTES // (8 * max(1, numbers)))
