@@ -19,6 +19,7 @@ from pinscrew.typing import FloatArray
 mpmath.mp.dps = 60
 
 EPSILON = float(np.finfo(float).eps)
+SPACING = 5e-324  # of subnormal numbers: their products are that much off
 BATCHES: tuple[tuple[int, ...], ...] = ((), (3,), (2, 3), (0,))
 
 Series = Callable[[Any], tuple[Any, Any]]

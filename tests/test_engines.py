@@ -1,4 +1,4 @@
-"""What both engines promise: shapes, kinds, errors, and the same answers as each other."""
+"""What every engine promises: shapes, kinds of Jacobian, errors."""
 
 from __future__ import annotations
 
@@ -8,12 +8,9 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 import pytest
-import urdfs
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import pinscrew as ps
-from pinscrew.engines import poe
+import urdfs
 from pinscrew.errors import AmbiguousTipError, InputError, UnknownNameError
 from pinscrew.typing import KINDS, FloatArray
 
@@ -130,7 +127,7 @@ def test_velocities_broadcast(engine: Any, q_axes: tuple[int, ...], qd_axes: tup
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(
-    ("kind", "alias"), zip(KINDS, ("WORLD", "LOCAL", "LOCAL_WORLD_ALIGNED"), strict=True), ids=KINDS
+    ("kind", "alias"), [("spatial", "WORLD"), ("body", "LOCAL"), ("hybrid", "LOCAL_WORLD_ALIGNED")]
 )
 def test_names_of_kinds(engine: Any, kind: str, alias: str) -> None:
     asked = make(engine, "rotated")
@@ -236,7 +233,7 @@ def test_quaternions(engine: Any) -> None:
     rough = q.astype(np.float32).astype(float)
     assert np.abs(asked.fk(rough) - asked.fk(q)).max() <= 1e-6
     R = asked.fk(rough)[:, :3, :3]
-    assert np.abs(R @ R.swapaxes(1, 2) - np.eye(3)).max() <= 1e-15 * 10
+    assert np.abs(R @ R.swapaxes(1, 2) - np.eye(3)).max() <= 1e-14
     for factor in (1.0 + 1e-5, 0.5, 0.0, 1e100):
         scaled = q.copy()
         scaled[7, 3:] *= factor

@@ -7,7 +7,7 @@ word for the kind of mistake, so that a program need not read the sentence.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 __all__ = [
     "AmbiguousTipError",
@@ -43,6 +43,17 @@ class PinscrewError(Exception):
         self.remedy = remedy
         message = f"{where}: {what}" if where else what
         super().__init__(f"{message}; {remedy}" if remedy else message)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Subclasses take other arguments than Exception keeps, so pickle must not call them to copy an error.
+        return _restore, (type(self), self.args, self.__dict__)
+
+
+def _restore(kind: type[PinscrewError], arguments: tuple[Any, ...], attributes: dict[str, Any]) -> PinscrewError:
+    error = kind.__new__(kind, *arguments)
+    error.args = arguments
+    error.__dict__.update(attributes)
+    return error
 
 
 class DescriptionError(PinscrewError):

@@ -11,6 +11,7 @@ import numpy as np
 
 from pinscrew.description import catalogue, expand, markup, urdf
 from pinscrew.description.model import Description, Joint
+from pinscrew.description.packages import Packages
 from pinscrew.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
 from pinscrew.lie import se3
 from pinscrew.mechanism import Mechanism, derive
@@ -251,6 +252,8 @@ def load(
     floating_base: bool = False,
     tip: str | None = None,
     arguments: Mapping[str, float | str] | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    allow_outside: bool = False,
     **more: float | str,
 ) -> Robot:
     """Load a robot.
@@ -261,6 +264,9 @@ def load(
         floating_base: let the root link float: seven coordinates (x, y, z and a quaternion x, y, z, w) come first.
         tip: the default tip frame.
         arguments: the xacro file's arguments, where their names are no Python identifiers or are taken here.
+        packages: roots of ROS packages by name, for ``$(find …)`` and ``package://``; the environment's and the
+            file's own are found without.
+        allow_outside: let a xacro file read files outside its own folder and the packages.
         more: the xacro file's arguments, such as ``l1=0.4``.
 
     Raises:
@@ -271,7 +277,8 @@ def load(
     given = {name: str(value) for name, value in {**(arguments or {}), **more}.items()}
     text = markup.read(entry.file)
     if expand.is_xacro(entry.file):
-        text = expand.expand(entry.file, given)
+        roots = {name: Path(root) for name, root in (packages or {}).items()}
+        text = expand.expand(entry.file, given, Packages(entry.file, roots, allow_outside))
     elif given:
         what = f"a plain URDF has no arguments, but {', '.join(given)} came"
         raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")

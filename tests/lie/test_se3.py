@@ -18,7 +18,7 @@ from pinscrew.errors import InputError
 from pinscrew.lie import se3, so3
 from pinscrew.typing import FloatArray
 
-EPSILON = ls.EPSILON
+EPSILON, SPACING = ls.EPSILON, ls.SPACING
 Function = Callable[[Any], FloatArray]
 
 # The 6 by 6 truth takes 30 ms, a batch of twists as long to draw.
@@ -66,7 +66,7 @@ def check_log(log: Function, xi: FloatArray) -> None:
     angle, size = ls.angle_of(xi), ls.angle_of(xi[:3])
     T, _ = ls.truth(ls.hat4(ls.exact(xi)), angle)
     actual = log(T.astype(float))
-    assert ls.error(actual[3:], ls.exact(xi[3:])) <= 8 * EPSILON * angle + 1e-323
+    assert ls.error(actual[3:], ls.exact(xi[3:])) <= 8 * EPSILON * angle + 2 * SPACING
     assert ls.error(actual[:3], ls.exact(xi[:3])) <= 64 * EPSILON * size
 
 
@@ -81,7 +81,7 @@ def test_exp(xi: FloatArray) -> None:
 @given(ls.twists(st.one_of(ls.SMALL, st.floats(0, 10))))
 def test_exp_agrees_with_scipy(xi: FloatArray) -> None:
     xi[:3] /= max(1.0, ls.angle_of(xi[:3]))  # scipy's errors are relative to the norm of the whole matrix
-    np.testing.assert_allclose(se3.exp(xi), scipy.linalg.expm(se3.hat(xi)), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(se3.exp(xi), scipy.linalg.expm(se3.hat(xi)), rtol=0, atol=1e-12)
 
 
 def test_exp_keeps_small_turns_of_large_translations() -> None:
@@ -198,7 +198,7 @@ def test_ad_is_the_bracket(xi: FloatArray, eta: FloatArray) -> None:
     linear = ls.angle_of(xi[:3]) * ls.angle_of(eta) + ls.angle_of(xi) * ls.angle_of(eta[:3])
     # Entries of the bracket have up to four products; both sides round them.
     tolerance = 8 * EPSILON * np.repeat([linear, angular], 3)
-    assert (np.abs(se3.ad(xi) @ eta - se3.vee(X @ Y - Y @ X)) <= tolerance).all()
+    assert (np.abs(se3.ad(xi) @ eta - se3.vee(X @ Y - Y @ X)) <= tolerance + 8 * SPACING).all()
 
 
 @given(ls.twists(), ls.twists())
@@ -209,6 +209,7 @@ def test_adjoint_is_conjugation(xi: FloatArray, eta: FloatArray) -> None:
     reach = ls.angle_of(T[:3, 3])
     # R's orthogonality (18 ε), two products with rows of three or four, both sides.
     tolerance = 64 * EPSILON * np.repeat([ls.angle_of(eta[:3]) + reach * ls.angle_of(eta), ls.angle_of(eta)], 3)
+    tolerance += 16 * SPACING * np.repeat([1 + reach, 1], 3)  # a subnormal ω is moved along p
     assert (np.abs(se3.adjoint(T) @ eta - se3.vee(left)) <= tolerance).all()
     np.testing.assert_array_equal(left[3], np.zeros(4))
 
@@ -254,6 +255,8 @@ def test_group_axioms(xi: FloatArray, data: st.DataObject) -> None:
     assert_close((A @ B) @ C, A @ (B @ C))
     assert_close(se3.inverse(A @ B), se3.inverse(B) @ se3.inverse(A))
     assert_close(se3.inverse(se3.inverse(A)), A)
+    # p of exp is right to 51 ε ‖v‖, which can be far more than ‖p‖.
+    reach += np.linalg.norm(xi[..., :3], axis=-1)
     assert_close(se3.exp(-xi), se3.inverse(A))
     product = se3.adjoint(A) @ se3.adjoint(B)
     difference = np.abs(se3.adjoint(A @ B) - product)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 import warnings
 from importlib import import_module
@@ -56,6 +57,9 @@ def command() -> None:
 
 def main() -> None:
     """Run the command; every error of pinscrew ends in one line and exit status 2."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # names from a file, or ω, may not be in its encoding
+            stream.reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
     try:
         command(prog_name="pinscrew")

@@ -39,16 +39,18 @@ class Named:
     Attributes:
         source: a name or a path.
         arguments: its xacro arguments.
+        options: of how to load it, for `pinscrew.load`.
     """
 
     source: str
-    arguments: dict[str, str] = field(default_factory=dict)
+    arguments: dict[str, float | str] = field(default_factory=dict)
+    options: dict[str, Any] = field(default_factory=dict)
 
     def load(self) -> Robot:
         """The robot."""
         from pinscrew.robot import load
 
-        return load(self.source, arguments=self.arguments)
+        return load(self.source, arguments=self.arguments, **self.options)
 
 
 def _complete(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
@@ -60,22 +62,73 @@ def _complete(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> 
 
 def robot_argument(*, required: bool = True) -> Callable[[_F], _F]:
     """The ROBOT [ARG:=VALUE]... of a command, as a tuple of words for `robots`."""
-    return click.argument(
+    argument = click.argument(
         "words",
         nargs=-1,
         required=required,
         metavar="ROBOT [ARG:=VALUE]..." if required else "[ROBOT [ARG:=VALUE]...]...",
         shell_complete=_complete,
     )
+    options = (
+        click.option(
+            "--package",
+            "packages",
+            multiple=True,
+            metavar="NAME:=PATH",
+            expose_value=False,
+            callback=_keep_packages,
+            help="Where a ROS package is, for $(find NAME) and package://NAME; may be repeated.",
+        ),
+        click.option(
+            "--allow-outside",
+            is_flag=True,
+            expose_value=False,
+            callback=_keep,
+            help="Let a xacro file read files outside its own folder and the packages.",
+        ),
+        click.option(
+            "--floating-base",
+            is_flag=True,
+            expose_value=False,
+            callback=_keep,
+            help="Let the root link float: x, y, z and a quaternion x, y, z, w come first in the coordinates.",
+        ),
+    )
+
+    def decorate(function: _F) -> _F:
+        for decorator in (*reversed(options), argument):
+            function = decorator(function)
+        return function
+
+    return decorate
+
+
+_OPTIONS: Final = "pinscrew.load"
+
+
+def _keep(ctx: click.Context, param: click.Parameter, value: Any) -> None:
+    """Keep the value of an option of `robot_argument` for `robots`."""
+    ctx.meta.setdefault(_OPTIONS, {})[param.name] = value
+
+
+def _keep_packages(ctx: click.Context, param: click.Parameter, values: Sequence[str]) -> None:
+    packages = {}
+    for value in values:
+        assignment = _ASSIGNMENT.fullmatch(value)
+        if assignment is None:
+            raise click.BadParameter(f"{value!r} is not NAME:=PATH")
+        packages[assignment[1]] = assignment[2]
+    _keep(ctx, param, packages)
 
 
 def robots(words: Sequence[str]) -> list[Named]:
     """The robots that the words of a command line name, each with the arguments that follow it."""
     found: list[Named] = []
+    options = click.get_current_context().meta.get(_OPTIONS, {})
     for word in words:
         assignment = _ASSIGNMENT.fullmatch(word)
         if assignment is None:
-            found.append(Named(word))
+            found.append(Named(word, options=options))
         elif not found:
             raise click.UsageError(f"the argument {word} comes before any robot")
         else:
@@ -118,7 +171,8 @@ def number(text: str) -> float:
     Raises:
         click.BadParameter: if it is none.
     """
-    problem = click.BadParameter(f"{text!r} is not a number; write such as 0.1, pi/4 or 45deg")
+    shown = text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
+    problem = _bad(f"{shown!r} is not a number; write such as 0.1, pi/4 or 45deg")
     if len(text) > _LONGEST:
         raise problem
     try:
@@ -128,6 +182,10 @@ def number(text: str) -> float:
     if not math.isfinite(value):
         raise problem
     return value
+
+
+def _bad(message: str) -> click.BadParameter:
+    return click.BadParameter(message, param_hint="-q")
 
 
 def _value(node: ast.expr) -> float:
@@ -154,14 +212,18 @@ def configuration(robot: Robot, values: str | None) -> FloatArray:
 
     if values is None or not values.strip():
         return robot.neutral.copy()
-    words = values.split(",")
+    words = values.removeprefix("=").split(",")  # -q=1 is -q with the value "=1" to click
     if any("=" in word for word in words):
         pairs = [word.partition("=") for word in words]
-        bare = [name.strip() for name, equals, _ in pairs if not equals]
+        names = [name.strip() for name, _, _ in pairs]
+        bare = [name for name, (_, equals, _) in zip(names, pairs, strict=True) if not equals]
         if bare:
-            raise click.BadParameter(f"{bare[0]!r} has no name; give all values by name, or none")
-        return robot.configuration({name.strip(): number(value) for name, _, value in pairs})
+            raise _bad(f"{bare[0]!r} has no name; give all values by name, or none")
+        twice = [name for i, name in enumerate(names) if name in names[:i]]
+        if twice:
+            raise _bad(f"{twice[0]!r} is given twice")
+        return robot.configuration({name: number(value) for name, (_, _, value) in zip(names, pairs, strict=True)})
     if len(words) != robot.nq:
-        names = ", ".join(robot.coordinate_names) or "none"
-        raise click.BadParameter(f"-q has {len(words)} values; {robot.name} takes {robot.nq}: {names}")
+        known = ", ".join(robot.coordinate_names) or "none"
+        raise _bad(f"{len(words)} values, but {robot.name} takes {robot.nq}: {known}")
     return np.array([number(word) for word in words])

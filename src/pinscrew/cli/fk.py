@@ -11,7 +11,7 @@ from pinscrew.cli import arguments, output
 __all__ = ["command"]
 
 
-@click.command(name="fk")
+@click.command(name="fk", short_help="Print the pose of a frame, from both engines.")
 @arguments.robot_argument()
 @arguments.q_option
 @arguments.tip_option

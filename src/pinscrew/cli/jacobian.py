@@ -13,7 +13,7 @@ __all__ = ["command"]
 _ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
 
 
-@click.command(name="jacobian")
+@click.command(name="jacobian", short_help="Print a Jacobian, from both engines.")
 @arguments.robot_argument()
 @arguments.q_option
 @click.option(

@@ -36,9 +36,9 @@ def command(examples: bool, as_json: bool) -> None:
         ]
         print_json({"schema": "pinscrew.list/1", "robots": rows})
         return
-    from rich.table import Table
+    from rich.table import Column, Table
 
-    table = Table("robot", "also", "arguments", "what it is", box=None, pad_edge=False)
+    table = Table(Column("robot", no_wrap=True), "also", "arguments", "what it is", box=None, pad_edge=False)
     for entry in entries:
         arguments = catalogue.declared_arguments(entry.file)
         shown = " ".join(f"{name}:={default}" for name, default in arguments.items())

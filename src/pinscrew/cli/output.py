@@ -28,7 +28,8 @@ def console(*, stderr: bool = False) -> Console:
     from rich.console import Console
 
     stream = sys.stderr if stderr else sys.stdout
-    return Console(file=stream, width=None if stream.isatty() else UNSEEN_WIDTH, highlight=False, markup=False)
+    width = None if stream.isatty() else UNSEEN_WIDTH
+    return Console(file=stream, width=width, highlight=False, markup=False, emoji=False)
 
 
 def print_json(document: Any) -> None:
@@ -47,11 +48,15 @@ def write_file(path: Path, text: str) -> None:
     Raises:
         InputError: if it can't be written.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    encoded = text.encode("utf-8", errors="backslashreplace")
     try:
+        if path.exists() and not path.is_file():  # a device or a pipe, such as /dev/stdout
+            path.write_bytes(encoded)
+            return
+        temporary = path.resolve().with_name(f".{path.name}.{os.getpid()}")
         try:
-            temporary.write_text(text, encoding="utf-8")
-            temporary.replace(path)
+            temporary.write_bytes(encoded)
+            temporary.replace(path.resolve())
         finally:
             temporary.unlink(missing_ok=True)
     except OSError as error:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 
-@click.command(name="screws")
+@click.command(name="screws", short_help="Print screw axes and home pose of a frame.")
 @arguments.robot_argument()
 @arguments.tip_option
 @click.option(
@@ -103,7 +103,8 @@ def _print_table(found: Screws, robot: Robot) -> None:
     output.console().print(table)
     if still:
         click.echo(f"not moving {found.tip}: {', '.join(still)}")
-    for motion in robot.mechanism.motions:
+    for index in robot.motions_above(found.tip):
+        motion = robot.mechanism.motions[index]
         if motion.joint.mimic is not None:
             master = robot.velocity_names[motion.v]
             click.echo(f"{motion.joint.name} follows {master} times {motion.multiplier:.6g}, and is in its screw")

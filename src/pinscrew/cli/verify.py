@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 
-@click.command(name="verify")
+@click.command(name="verify", short_help="Compare the answers of both engines on every frame.")
 @arguments.robot_argument(required=False)
 @click.option("--samples", default=1000, show_default=True, type=click.IntRange(0), help="Random configurations.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the random configurations.")
@@ -58,18 +58,18 @@ def command(
             except PinscrewError as error:
                 errors.append(formats.Unverified(one.source, error))
             advance(one.source)
-    if junit is not None:
-        output.write_file(junit, formats.to_junit(reports, errors))
-    if markdown is not None:
-        output.write_file(markdown, formats.to_markdown(reports, errors))
     if as_json:
         click.echo(formats.to_json(reports, errors))
     elif len(named) == 1 and reports:
         _print_checks(reports[0])
     elif reports:
-        _print_summary(reports)
+        _print_summary(reports, len(named), "compared frame" if frames else "frame")
     for unverified in errors:
         click.echo(f"pinscrew: {unverified.error}", err=True)
+    if junit is not None:
+        output.write_file(junit, formats.to_junit(reports, errors))
+    if markdown is not None:
+        output.write_file(markdown, formats.to_markdown(reports, errors))
     if not all(report.ok for report in reports):
         sys.exit(1)
     if errors:
@@ -98,12 +98,12 @@ def _progress(total: int) -> Iterator[Callable[[str], None]]:
 
 def _print_checks(report: Report) -> None:
     """One robot: a line for each check."""
-    from rich.table import Table
+    from rich.table import Column, Table
     from rich.text import Text
 
     from pinscrew.verification import formats
 
-    table = Table("check", "error", "tolerance", "", "largest at", box=None, pad_edge=False)
+    table = Table(Column("check", no_wrap=True), "error", "tolerance", "", "largest at", box=None, pad_edge=False)
     for check in report.checks:
         mark = Text("ok", "green") if check.ok else Text("FAIL", "bold red")
         where = Text(formats.place(check))
@@ -113,7 +113,7 @@ def _print_checks(report: Report) -> None:
         click.echo(line)
 
 
-def _print_summary(reports: Sequence[Report]) -> None:
+def _print_summary(reports: Sequence[Report], asked: int, frame: str) -> None:
     """Several robots: a line for each, and what the failed ones have to say."""
     from rich.table import Table
     from rich.text import Text
@@ -128,6 +128,6 @@ def _print_summary(reports: Sequence[Report]) -> None:
     output.console().print(table)
     for report in reports:
         if not report.ok:
-            click.echo("\n".join((formats.summary(report), *formats.details(report))))
+            click.echo("\n".join((formats.summary(report), *formats.failures(report), *formats.details(report))))
     agreeing = sum(report.ok for report in reports)
-    click.echo(f"{agreeing} of {len(reports)} robots: both engines agree to rounding error on every frame")
+    click.echo(f"{agreeing} of {asked} robots: both engines agree to rounding error on every {frame}")

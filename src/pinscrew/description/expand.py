@@ -10,12 +10,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from pinscrew.description.packages import Packages
 from pinscrew.errors import PinscrewWarning, XacroError
 
-__all__ = ["TIMEOUT", "expand", "is_xacro"]
+__all__ = ["MEMORY", "SECONDS", "expand", "is_xacro"]
 
-TIMEOUT: Final = 10.0
-"""Seconds that an expansion may take."""
+SECONDS: Final = 8
+"""Time that an expansion may take, on the clock and on the processor."""
+MEMORY: Final = 2**30
+"""Bytes that its process may address."""
 
 _WORKER: Final = Path(__file__).with_name("_xacro_worker.py")
 
@@ -25,45 +28,51 @@ def is_xacro(path: Path) -> bool:
     return path.suffix == ".xacro"
 
 
-def expand(path: Path, arguments: Mapping[str, str]) -> str:
+def expand(path: Path, arguments: Mapping[str, str], packages: Packages | None = None) -> str:
     """The URDF that a xacro file stands for.
 
     Args:
         path: the file.
         arguments: values of its ``<xacro:arg>``s; the others keep their defaults.
+        packages: what ``$(find …)`` finds and which folders may be read; by default those of the environment.
 
     Raises:
-        XacroError: if an argument is not declared, or the expansion fails or takes too long.
+        XacroError: if an argument is not declared, an expression goes beyond arithmetic, a file outside the roots is
+            asked for, or the expansion fails, takes more than `SECONDS` or more than `MEMORY`.
     """
-    request = json.dumps({"file": str(path), "arguments": dict(arguments)})
-    try:
-        child = subprocess.run(  # noqa: S603 (our own worker, under our own interpreter)
-            [sys.executable, str(_WORKER)],
-            input=request,
-            capture_output=True,
-            check=False,
-            text=True,
-            timeout=TIMEOUT,
-        )
-    except subprocess.TimeoutExpired:
-        what = f"its expansion takes more than {TIMEOUT:g} s"
-        raise XacroError("xacro-limit", what, file=path, remedy="look for endless macros") from None
-    answer = _answer(child.stdout)
+    packages = packages or Packages(path)
+    request = {
+        "file": str(path),
+        "arguments": dict(arguments),
+        "packages": {name: str(root.resolve()) for name, root in packages.declared.items()},
+        "allow_outside": packages.allow_outside,
+        "seconds": SECONDS,
+        "memory": MEMORY,
+    }
+    answer = _ask(request)
     if answer is None:
-        what = f"its expansion died (exit status {child.returncode})"
+        what = f"its expansion takes more than {SECONDS} s or {MEMORY // 2**20} MB"
         raise XacroError("xacro-limit", what, file=path, remedy="look for endless macros and huge numbers")
     for message in answer["warnings"]:
         warnings.warn(PinscrewWarning("xacro", f"{path}: {message}"), stacklevel=2)
     if "error" in answer:
-        raise XacroError(answer["code"], answer["error"], file=path, remedy=answer.get("remedy", ""))
+        raise XacroError(answer["code"], answer["error"], file=answer.get("at", path), remedy=answer.get("remedy", ""))
     text: str = answer["text"]
     return text
 
 
-def _answer(output: str) -> dict[str, Any] | None:
+def _ask(request: Mapping[str, Any]) -> dict[str, Any] | None:
     """The worker's answer, or None where it did not live to give one."""
     try:
-        answer: dict[str, Any] = json.loads(output)
-    except json.JSONDecodeError:
+        child = subprocess.run(  # noqa: S603 (our own worker, under our own interpreter)
+            [sys.executable, str(_WORKER)],
+            input=json.dumps(request),
+            capture_output=True,
+            check=False,
+            text=True,
+            timeout=SECONDS,
+        )
+        answer: dict[str, Any] = json.loads(child.stdout)
+    except (subprocess.TimeoutExpired, json.JSONDecodeError):
         return None
     return answer

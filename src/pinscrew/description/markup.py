@@ -6,6 +6,7 @@ an extension, whatever ``a`` is bound to, and a default ``xmlns`` changes no nam
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -15,10 +16,12 @@ from xml.parsers import expat
 
 from pinscrew.errors import DescriptionError
 
-__all__ = ["MAX_BYTES", "Element", "decode", "parse", "read"]
+__all__ = ["MAX_BYTES", "MAX_ELEMENTS", "Element", "decode", "parse", "read"]
 
 MAX_BYTES: Final = 20 * 2**20
 """Largest file that is read."""
+MAX_ELEMENTS: Final = 250_000
+"""Most elements that a file may have: five million ``<a/>`` would take 20 MB as text and 1.3 GB as elements."""
 
 _BOM: Final = b"\xef\xbb\xbf"
 _DECLARED: Final = re.compile(rb"""<\?xml[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
@@ -26,12 +29,13 @@ _DECLARED: Final = re.compile(rb"""<\?xml[^>]*?\bencoding\s*=\s*["']([^"']*)["']
 
 @dataclass(slots=True)
 class Element:
-    """An XML element: tag, attributes, child elements, and the line it starts on."""
+    """An XML element: tag, attributes, child elements, the text before these, and the line it starts on."""
 
     tag: str
     attributes: dict[str, str]
     line: int
     children: list[Element] = field(default_factory=list)
+    text: str = ""
 
     def all(self, tag: str) -> Iterator[Element]:
         """The direct children with this tag."""
@@ -88,14 +92,25 @@ def parse(text: str, file: str | Path) -> Element:
     parser = expat.ParserCreate("utf-8")
     open_elements: list[Element] = []
     roots: list[Element] = []
+    pieces: list[str] = []  # of text: adding each to what is there would take time that grows with the square
+    count = itertools.count(1)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
+        if next(count) > MAX_ELEMENTS:
+            raise DescriptionError("too-large", f"more than {MAX_ELEMENTS} elements", file=file)
+        keep_text()
         element = Element(tag, attributes, parser.CurrentLineNumber)
         (open_elements[-1].children if open_elements else roots).append(element)
         open_elements.append(element)
 
     def end(_tag: str) -> None:
+        keep_text()
         open_elements.pop()
+
+    def keep_text() -> None:
+        if open_elements and not open_elements[-1].children:
+            open_elements[-1].text = "".join(pieces)
+        pieces.clear()
 
     def doctype(*_: object) -> NoReturn:
         raise DescriptionError(
@@ -108,7 +123,9 @@ def parse(text: str, file: str | Path) -> Element:
 
     parser.StartElementHandler = start
     parser.EndElementHandler = end
+    parser.CharacterDataHandler = pieces.append
     parser.StartDoctypeDeclHandler = doctype
+    parser.buffer_text = True
     try:
         # The text is encoded anew, so a declared "ascii" must not make expat refuse what decode() accepted.
         parser.Parse(text.encode(), True)

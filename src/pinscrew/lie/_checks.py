@@ -32,9 +32,11 @@ def read(value: ArrayLike, trailing: tuple[int, ...], where: str, name: str) -> 
         complex_ = np.iscomplexobj(value)  # numpy would drop imaginary parts with a mere warning
         array = np.asarray(value, dtype=None if complex_ else np.float64)
     except (TypeError, ValueError) as error:
-        raise InputError("number", f"{name} is no array of numbers: {error}", where=where, remedy=expected) from None
+        raise InputError(
+            "not-numbers", f"{name} is no array of numbers: {error}", where=where, remedy=expected
+        ) from None
     if complex_:
-        raise InputError("number", f"{name} is complex", where=where, remedy="expected real numbers")
+        raise InputError("not-numbers", f"{name} is complex", where=where, remedy="expected real numbers")
     if array.shape[-len(trailing) :] != trailing:
         raise InputError("shape", f"{name} has shape {array.shape}", where=where, remedy=expected)
     return array

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -16,6 +17,7 @@ __all__ = [
     "SCHEMA",
     "Unverified",
     "details",
+    "failures",
     "place",
     "summary",
     "to_json",
@@ -25,6 +27,9 @@ __all__ = [
 ]
 
 SCHEMA: Final = "pinscrew.verify/1"
+
+_NOT_XML: Final = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What XML 1.0 has no way to write; a file's name may hold it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +44,7 @@ def summary(report: Report) -> str:
     """One line: what was compared, and the outcome."""
     outcome = "agree" if report.ok else "DISAGREE"
     return (
-        f"{report.robot}: {report.engines[0]} and {report.engines[1]} {outcome} on {report.frames} frames "
+        f"{_line(report.robot)}: {report.engines[0]} and {report.engines[1]} {outcome} on {report.frames} frames "
         f"at {report.configurations} configurations (seed {report.seed})"
     )
 
@@ -52,7 +57,12 @@ def place(check: Check) -> str:
         found.joint and f"joint {found.joint}",
         found.configuration,
     )
-    return ", ".join(part for part in parts if part)
+    return _line(", ".join(part for part in parts if part))
+
+
+def _line(text: str) -> str:
+    """Text without line breaks; names may hold them."""
+    return " ".join(text.split())
 
 
 def to_text(report: Report) -> str:
@@ -70,10 +80,14 @@ def to_text(report: Report) -> str:
 
 def details(report: Report) -> list[str]:
     """What a failed report has to say beside its table."""
-    lines = [remark for check in report.failed for remark in check.remarks]
-    lines += report.diagnosis
+    lines = [*(remark for check in report.failed for remark in check.remarks), *report.diagnosis]
     lines += [f"{c.name}: largest at q = {list(c.place.q)}" for c in report.failed if c.place.q][:1]
-    return lines
+    return list(dict.fromkeys(lines))  # remarks that explain a failure are in the diagnosis too
+
+
+def failures(report: Report) -> list[str]:
+    """One line for each failed check."""
+    return [f"{c.name}: error {c.error:.1e} above {c.tolerance:.1e}, largest at {place(c)}" for c in report.failed]
 
 
 def to_json(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
@@ -131,14 +145,16 @@ def to_junit(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> st
             if not check.ok:
                 message = f"error {check.error:.3e} above {check.tolerance:.3e}, largest at {place(check)}"
                 failure = ET.SubElement(case, "failure", message=message, type="disagreement")
-                failure.text = "\n".join((*check.remarks, *report.diagnosis, f"q = {list(check.place.q)}"))
+                lines = dict.fromkeys((*check.remarks, *report.diagnosis, f"q = {list(check.place.q)}"))
+                failure.text = "\n".join(lines)
     for unverified in errors:
         case = _case(_suite(root, unverified.robot, tests=1, failures=0, errors=1), "verify")
         ET.SubElement(case, "error", message=str(unverified.error), type=unverified.error.code)
     for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
     ET.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
+    document = '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
+    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", document)
 
 
 def _suite(root: ET.Element, robot: str, **counts: int) -> ET.Element:
@@ -176,7 +192,8 @@ def to_markdown(reports: Sequence[Report], errors: Sequence[Unverified] = ()) ->
 
 
 def _cell(text: str) -> str:
-    """Text with what Markdown would take as markup made plain."""
+    """Text on one line, with what Markdown would take as markup made plain."""
+    text = _line(text)
     for mark in "\\`*_|<>[]":
         text = text.replace(mark, f"\\{mark}")
     return text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Final
 
@@ -47,31 +48,35 @@ def verify(
         engines: two engines to compare instead of `PoE` and `Pinocchio` of this robot.
 
     Raises:
-        InputError: if ``samples`` is negative or ``tolerance`` not positive.
+        InputError: if ``samples`` or ``seed`` is negative, ``tolerance`` not positive and finite, or ``frames`` empty.
         UnknownNameError: if there is no such frame.
         EngineError, UnsupportedError: if Pinocchio does not take the robot.
     """
     if samples < 0:
         raise InputError("samples", f"samples={samples}", remedy="give 0 or more")
-    if not tolerance > 0.0:
+    if seed < 0:
+        raise InputError("seed", f"seed={seed}", remedy="give 0 or more")
+    if not 0.0 < tolerance < math.inf:
         raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a positive number, such as 1e-12")
     names = tuple(robot.frame(frame) for frame in (robot.frame_names if frames is None else frames))
+    if not names:
+        raise InputError("frames", "there are no frames to compare", remedy="leave frames out to compare all")
     pair = engines or _default_engines(robot)
-    remarks, comparable = structure.compare(*pair)
+    known = tuple(name for name in names if all(name in engine.robot.frame_names for engine in pair))
+    remarks = structure.compare(*pair)
     where = configurations(robot, samples, seed)
     checks = [Check("structure", float(len(remarks)), 0.0, remarks=remarks)]
-    found: tuple[str, ...] = ()
-    if comparable:
-        known = tuple(name for name in names if all(name in engine.robot.frame_names for engine in pair))
-        checks += _numbers(robot, pair, known, where, tolerance)
-        if not all(check.ok for check in checks):
-            found = diagnosis.diagnose(pair, tolerance)
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite fails its check; no need to warn
+        if known and structure.same_coordinates(*pair):
+            checks += _numbers(robot, pair, known, where, tolerance)
+        failed = [check for check in checks if not check.ok]
+        found = diagnosis.diagnose(pair, failed, tolerance) if failed else ()
     return Report(
         robot=robot.name,
         file=robot.description.file,
         arguments=dict(robot.description.arguments),
         engines=(pair[0].name, pair[1].name),
-        frames=len(names),
+        frames=len(known),
         samples=samples,
         configurations=len(where.q),
         seed=seed,

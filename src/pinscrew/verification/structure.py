@@ -1,48 +1,82 @@
-"""Do two engines' parsers see the same joints?"""
+"""Do two engines' parsers see the same links and joints?"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from pinscrew.engines.base import Engine, JointView
 
-__all__ = ["compare"]
+__all__ = ["Difference", "compare", "joint_differences", "same_coordinates"]
+
+_COORDINATES = ("coordinate_names", "velocity_names")
 
 
-def compare(a: Engine, b: Engine) -> tuple[tuple[str, ...], bool]:
-    """Differences between the joints that two engines saw, in words, and whether numbers can be compared.
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One thing about a joint that two parsers see differently.
 
-    Numbers can be compared if both engines take the same coordinates and velocities.
+    Attributes:
+        joint: its name.
+        what: ``"presence"``, ``"type"``, ``"parent"``, ``"child"``, ``"mimic"`` or ``"limits"``.
+        words: the difference in a sentence.
     """
-    remarks: list[str] = []
+
+    joint: str
+    what: str
+    words: str
+
+
+def compare(a: Engine, b: Engine) -> tuple[str, ...]:
+    """Differences between the joints, links and coordinates that two engines saw, in words, down the tree."""
+    remarks = [difference.words for difference in joint_differences(a, b)]
+    for one, other in ((a, b), (b, a)):
+        only = (link for link in one.robot.frame_names if link not in other.robot.frame_names)
+        remarks += [f"link {link!r} is seen by {one.name} only" for link in only]
+    for names in _COORDINATES:
+        mine, theirs = getattr(a.robot, names), getattr(b.robot, names)
+        if mine != theirs:
+            remarks.append(f"{names.replace('_', ' ')} are {list(mine)} in {a.name}, {list(theirs)} in {b.name}")
+    return tuple(remarks)
+
+
+def same_coordinates(a: Engine, b: Engine) -> bool:
+    """Whether both engines take the same coordinates and velocities, so that their numbers can be compared."""
+    return all(getattr(a.robot, names) == getattr(b.robot, names) for names in _COORDINATES)
+
+
+def joint_differences(a: Engine, b: Engine) -> tuple[Difference, ...]:
+    """What two engines' parsers see differently about joints, from the base outwards."""
     seen_a, seen_b = a.joints(), b.joints()
-    for name in seen_a.keys() | seen_b.keys():
-        if name not in seen_b:
-            remarks.append(f"joint {name!r} is seen by {a.name} only")
-        elif name not in seen_a:
-            remarks.append(f"joint {name!r} is seen by {b.name} only")
+    found: list[Difference] = []
+    for name in (*seen_a, *(name for name in seen_b if name not in seen_a)):
+        if name in seen_a and name in seen_b:
+            found += _compare_joint(name, (a.name, seen_a[name]), (b.name, seen_b[name]))
         else:
-            remarks += _compare_joint(name, (a.name, seen_a[name]), (b.name, seen_b[name]))
-    comparable = True
-    for what in ("coordinate_names", "velocity_names"):
-        mine, other = getattr(a.robot, what), getattr(b.robot, what)
-        if mine != other:
-            comparable = False
-            remarks.append(f"{what.replace('_', ' ')} are {list(mine)} in {a.name}, {list(other)} in {b.name}")
-    return tuple(sorted(remarks)), comparable
+            engine = a if name in seen_a else b
+            found.append(Difference(name, "presence", f"joint {name!r} is seen by {engine.name} only"))
+    return tuple(found)
 
 
-def _compare_joint(name: str, a: tuple[str, JointView], b: tuple[str, JointView]) -> list[str]:
+def _compare_joint(name: str, a: tuple[str, JointView], b: tuple[str, JointView]) -> list[Difference]:
     (engine_a, view_a), (engine_b, view_b) = a, b
-    remarks = []
+    found = []
     for what in ("type", "parent", "child", "mimic"):
         mine, other = getattr(view_a, what), getattr(view_b, what)
         if mine != other:
-            remarks.append(f"joint {name!r}: its {what} is {mine!r} to {engine_a}, {other!r} to {engine_b}")
+            shown = [_mimic(value) if what == "mimic" else repr(value) for value in (mine, other)]
+            words = f"joint {name!r}: its {what} is {shown[0]} to {engine_a}, {shown[1]} to {engine_b}"
+            found.append(Difference(name, what, words))
     # A mimic joint's own limits don't bound any coordinate.
     if view_a.mimic is None and not _same_limits(view_a.limits, view_b.limits):
-        remarks.append(f"joint {name!r}: its limits are {view_a.limits} to {engine_a}, {view_b.limits} to {engine_b}")
-    return remarks
+        shown = ["none" if view.limits is None else str(view.limits) for view in (view_a, view_b)]
+        words = f"joint {name!r}: its limits are {shown[0]} to {engine_a}, {shown[1]} to {engine_b}"
+        found.append(Difference(name, "limits", words))
+    return found
+
+
+def _mimic(mimic: tuple[str, float, float] | None) -> str:
+    return "none" if mimic is None else f"{mimic[1]!r} times {mimic[0]!r} plus {mimic[2]!r}"
 
 
 def _same_limits(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bool:
