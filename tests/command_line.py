@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import os
+import subprocess
 import sys
 import warnings
 from contextlib import redirect_stderr, redirect_stdout
@@ -52,3 +54,9 @@ def refused(*words: str | Path) -> str:
     message = done.err.splitlines()[-1]
     assert message.startswith(("Error: ", "pinscrew: "))
     return message.removeprefix("Error: ").removeprefix("pinscrew: ")
+
+
+def process(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """``python -m pinscrew`` in a process of its own."""
+    command = [sys.executable, "-m", "pinscrew", *words]
+    return subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, check=False)

@@ -171,12 +171,12 @@ def test_default_configuration_is_neutral_and_free() -> None:
     assert moved.sum() == 4.0
 
 
-ASK = {"fk": ("fk", "scara"), "jacobian": ("jacobian", "scara", "--kind", "body")}
+ASK = {"fk": ("fk", "drone"), "jacobian": ("jacobian", "drone", "--kind", "body")}
 WRONG = {
-    "1,2": "2 values, but scara_rrp takes 3: joint1, joint2, joint3",
-    "1": "1 values, but scara_rrp takes 3: joint1, joint2, joint3",
-    "1,2,3,4": "4 values, but scara_rrp takes 3: joint1, joint2, joint3",
-    "1,2,3,": "4 values, but scara_rrp takes 3: joint1, joint2, joint3",
+    "1,2": "2 values, but drone takes 3: joint1, joint2, joint3",
+    "1": "1 values, but drone takes 3: joint1, joint2, joint3",
+    "1,2,3,4": "4 values, but drone takes 3: joint1, joint2, joint3",
+    "1,2,3,": "4 values, but drone takes 3: joint1, joint2, joint3",
     "1,,3": "'' is not a number; write such as 0.1, pi/4 or 45deg",
     "1,two,3": "'two' is not a number; write such as 0.1, pi/4 or 45deg",
     "joint1=1,2,3": "'2' has no name; give all values by name, or none",
@@ -198,7 +198,7 @@ def test_wrong_configuration(command: tuple[str, ...], values: str, message: str
 @pytest.mark.parametrize("command", ASK.values(), ids=ASK)
 @pytest.mark.parametrize("name", ["elbow", "", "joint1.x"])
 def test_unknown_joint(command: tuple[str, ...], name: str) -> None:
-    expected = f"scara_rrp: there is no coordinate {name!r}; known are: joint1, joint2, joint3"
+    expected = f"drone: there is no coordinate {name!r}; known are: joint1, joint2, joint3"
     assert refused(*command, "-q", f"joint2=1,{name}=1") == expected
 
 
@@ -266,9 +266,9 @@ def test_bad_robot(command: tuple[str, ...], words: tuple[str, ...], message: st
 
 @pytest.mark.parametrize("command", ["fk", "screws"])
 def test_one_robot(command: str) -> None:
-    assert refused(command, "scara", "gears") == "expected one robot, but got scara, gears"
+    assert refused(command, "drone", "gears") == "expected one robot, but got drone, gears"
     assert refused(command) == "Missing argument 'ROBOT [ARG:=VALUE]...'."
-    assert refused(command, "scara", "--tip", "hand").startswith("scara_rrp: there is no frame 'hand'; known are: base")
+    assert refused(command, "drone", "--tip", "hand").startswith("drone: there is no frame 'hand'; known are: base")
 
 
 @pytest.mark.parametrize("command", ["fk", "screws"])
@@ -289,7 +289,7 @@ def test_files_that_are_no_robots(tmp_path: Path) -> None:
     assert refused("fk", tmp_path).startswith("there is no robot or file")
     folder = tmp_path / "folder.urdf"
     folder.mkdir()
-    assert refused("fk", folder) == f"{folder}: can't be read (Is a directory)"
+    assert refused("fk", folder).partition(f"{folder}: ")[2].startswith(("is a folder", "can't be read"))
 
 
 def test_names_are_completed() -> None:

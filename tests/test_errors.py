@@ -65,6 +65,12 @@ def test_pickling_keeps_everything(error: errors.PinscrewError) -> None:
     assert vars(copy) == vars(error)
 
 
+def test_pickling_keeps_warnings() -> None:
+    warning = errors.PinscrewWarning("axis-normalised", "a.urdf:3: joint 'j': the axis is long")
+    copy = pickle.loads(pickle.dumps(warning))  # noqa: S301 (our own bytes)
+    assert (type(copy), str(copy), copy.code) == (errors.PinscrewWarning, str(warning), warning.code)
+
+
 def test_messages_say_where_what_and_what_to_do() -> None:
     assert str(EXAMPLES[0]) == "arm: q is long; shorten it"
     assert str(EXAMPLES[1]) == "a.urdf:3: joint 'j': is round; cut it"

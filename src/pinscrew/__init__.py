@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from pinscrew.engines.pinocchio import Pinocchio
     from pinscrew.engines.poe import PoE
     from pinscrew.errors import PinscrewError, PinscrewWarning
-    from pinscrew.robot import Robot, load
+    from pinscrew.loading import load
+    from pinscrew.robot import Robot
     from pinscrew.screw import Screw
     from pinscrew.verification.report import Report
     from pinscrew.verification.run import verify
@@ -55,7 +56,7 @@ _HOMES = {
     "Robot": "pinscrew.robot",
     "Screw": "pinscrew.screw",
     "lie": "pinscrew.lie",
-    "load": "pinscrew.robot",
+    "load": "pinscrew.loading",
     "verify": "pinscrew.verification.run",
 }
 

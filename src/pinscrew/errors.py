@@ -7,7 +7,7 @@ word for the kind of mistake, so that a program need not read the sentence.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 __all__ = [
     "AmbiguousTipError",
@@ -21,6 +21,8 @@ __all__ = [
     "UnsupportedError",
     "XacroError",
 ]
+
+_E = TypeVar("_E", bound=Exception)
 
 MOST_NAMES: Final = 40
 """Names that a message lists; ``known`` has them all."""
@@ -49,7 +51,7 @@ class PinscrewError(Exception):
         return _restore, (type(self), self.args, self.__dict__)
 
 
-def _restore(kind: type[PinscrewError], arguments: tuple[Any, ...], attributes: dict[str, Any]) -> PinscrewError:
+def _restore(kind: type[_E], arguments: tuple[Any, ...], attributes: dict[str, Any]) -> _E:
     error = kind.__new__(kind, *arguments)
     error.args = arguments
     error.__dict__.update(attributes)
@@ -154,3 +156,6 @@ class PinscrewWarning(UserWarning):
     def __init__(self, code: str, message: str) -> None:
         self.code = code
         super().__init__(message)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (type(self), self.args, self.__dict__)

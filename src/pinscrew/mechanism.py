@@ -47,9 +47,14 @@ class JointMotion:
     multiplier: float
 
     @property
+    def freedoms(self) -> int:
+        """How many velocities it has: k."""
+        return int(self.twists.shape[1])
+
+    @property
     def velocities(self) -> slice:
         """Where its velocities stand in ``qd``."""
-        return slice(self.v, self.v + int(self.twists.shape[1]))
+        return slice(self.v, self.v + self.freedoms)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Final, Literal
 
 import numpy as np
 
-from pinscrew.description import catalogue, expand, markup, urdf
 from pinscrew.description.model import Description, Joint
-from pinscrew.description.packages import Packages
 from pinscrew.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
 from pinscrew.lie import se3
 from pinscrew.mechanism import Mechanism, derive
 from pinscrew.typing import FloatArray
 
-__all__ = ["FLOATING_JOINT", "UNIVERSE", "Robot", "load"]
+__all__ = ["FLOATING_JOINT", "UNIVERSE", "Robot"]
 
 UNIVERSE: Final = "universe"
 """The base of a robot that floats, by the name that Pinocchio has for it."""
@@ -27,7 +24,7 @@ FLOATING_JOINT: Final = "root_joint"
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Robot:
-    """A robot at zero, derived from its description alone. Make one with `load` or `from_description`.
+    """A robot at zero, derived from its description alone. Make one with `pinscrew.load` or `from_description`.
 
     Coordinates ``q`` stand in the order of `joint_names`, which is tree order: parents before children, depth
     first, siblings as in the file. Revolute and continuous joints have one angle (rad), prismatic joints one
@@ -244,46 +241,6 @@ class Robot:
                 raise UnknownNameError("unknown-coordinate", "coordinate", name, known, where=self.name)
             q[self.coordinate_names.index(name)] = value
         return q
-
-
-def load(
-    source: str | Path,
-    *,
-    floating_base: bool = False,
-    tip: str | None = None,
-    arguments: Mapping[str, float | str] | None = None,
-    packages: Mapping[str, str | Path] | None = None,
-    allow_outside: bool = False,
-    **more: float | str,
-) -> Robot:
-    """Load a robot.
-
-    Args:
-        source: a bundled robot (``pinscrew list`` names them), the path of a URDF or xacro file, or the name of
-            a URDF of example-robot-data.
-        floating_base: let the root link float: seven coordinates (x, y, z and a quaternion x, y, z, w) come first.
-        tip: the default tip frame.
-        arguments: the xacro file's arguments, where their names are no Python identifiers or are taken here.
-        packages: roots of ROS packages by name, for ``$(find …)`` and ``package://``; the environment's and the
-            file's own are found without.
-        allow_outside: let a xacro file read files outside its own folder and the packages.
-        more: the xacro file's arguments, such as ``l1=0.4``.
-
-    Raises:
-        UnknownNameError: if there is no such robot, file, or frame ``tip``.
-        DescriptionError: if the file can't be used.
-    """
-    entry = catalogue.find(source)
-    given = {name: str(value) for name, value in {**(arguments or {}), **more}.items()}
-    text = markup.read(entry.file)
-    if expand.is_xacro(entry.file):
-        roots = {name: Path(root) for name, root in (packages or {}).items()}
-        text = expand.expand(entry.file, given, Packages(entry.file, roots, allow_outside))
-    elif given:
-        what = f"a plain URDF has no arguments, but {', '.join(given)} came"
-        raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")
-    description = urdf.parse(text, entry.file, given)
-    return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)
 
 
 def _floating(description: Description) -> Description:

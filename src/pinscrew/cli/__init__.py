@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
+import traceback
 import warnings
 from importlib import import_module
 from typing import Any, Final
@@ -56,15 +58,30 @@ def command() -> None:
 
 
 def main() -> None:
-    """Run the command; every error of pinscrew ends in one line and exit status 2."""
+    """Run the command.
+
+    Every error of pinscrew ends in one line and exit status 2. Status 1 is kept for engines that disagree, so a
+    mistake of ours, which ends in a traceback, has status 2 too, and Ctrl-C 130 as in a shell.
+    """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # names from a file, or ω, may not be in its encoding
             stream.reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
     try:
-        command(prog_name="pinscrew")
+        sys.exit(command(prog_name="pinscrew", standalone_mode=False))
     except PinscrewError as error:
         click.echo(f"pinscrew: {error}", err=True)
+        sys.exit(2)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        sys.exit(130)
+    except BrokenPipeError:  # whoever read our output has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except Exception:
+        traceback.print_exc()
         sys.exit(2)
 
 

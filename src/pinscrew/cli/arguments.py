@@ -48,7 +48,7 @@ class Named:
 
     def load(self) -> Robot:
         """The robot."""
-        from pinscrew.robot import load
+        from pinscrew.loading import load
 
         return load(self.source, arguments=self.arguments, **self.options)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from pinscrew.cli.arguments import json_option
-from pinscrew.cli.output import console, print_json
+from pinscrew.cli.output import console, print_json, table
 
 __all__ = ["command"]
 
@@ -36,11 +36,9 @@ def command(examples: bool, as_json: bool) -> None:
         ]
         print_json({"schema": "pinscrew.list/1", "robots": rows})
         return
-    from rich.table import Column, Table
-
-    table = Table(Column("robot", no_wrap=True), "also", "arguments", "what it is", box=None, pad_edge=False)
+    shown = table("robot", "also", "arguments", "what it is")
     for entry in entries:
         arguments = catalogue.declared_arguments(entry.file)
-        shown = " ".join(f"{name}:={default}" for name, default in arguments.items())
-        table.add_row(entry.name, ", ".join(entry.aliases), shown, entry.title)
-    console().print(table)
+        defaults = " ".join(f"{name}:={default}" for name, default in arguments.items())
+        shown.add_row(entry.name, ", ".join(entry.aliases), defaults, entry.title)
+    console().print(shown)

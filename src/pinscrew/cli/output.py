@@ -14,13 +14,16 @@ from pinscrew.errors import InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
     from pinscrew.typing import FloatArray
 
-__all__ = ["console", "matrix_lines", "plain", "print_json", "write_file"]
+__all__ = ["NARROW", "console", "matrix_lines", "plain", "print_json", "table", "write_file"]
 
 UNSEEN_WIDTH: Final = 160
 """Columns of a table that goes to a file or a pipe."""
+NARROW: Final = 100
+"""Columns below which a table shows less."""
 
 
 def console(*, stderr: bool = False) -> Console:
@@ -30,6 +33,14 @@ def console(*, stderr: bool = False) -> Console:
     stream = sys.stderr if stderr else sys.stdout
     width = None if stream.isatty() else UNSEEN_WIDTH
     return Console(file=stream, width=width, highlight=False, markup=False, emoji=False)
+
+
+def table(first: str, *others: str) -> Table:
+    """A table with these headings; in a narrow terminal names in its first column stay whole the longest."""
+    from rich.table import Column, Table
+
+    columns = (Column(first, no_wrap=True), *(Column(name, overflow="fold") for name in others))
+    return Table(*columns, box=None, pad_edge=False)
 
 
 def print_json(document: Any) -> None:

@@ -117,8 +117,14 @@ def _latex(s: Screws) -> str:
 
 
 def _bmatrix(name: str, rows: Sequence[Sequence[float]]) -> list[str]:
-    body = [" & ".join(f"{x:.9g}" for x in row) + r" \\" for row in rows]
+    body = [" & ".join(map(_tex, row)) + r" \\" for row in rows]
     return [rf"\[ {name} =", r"\begin{bmatrix}", *body, r"\end{bmatrix} \]"]
+
+
+def _tex(x: float) -> str:
+    """Nine digits, without the rounding of zero."""
+    digits, _, exponent = f"{round(x, 12) + 0.0:.9g}".partition("e")
+    return rf"{digits} \times 10^{{{int(exponent)}}}" if exponent else digits
 
 
 FORMATS: Final[dict[str, Callable[[Screws], str]]] = {

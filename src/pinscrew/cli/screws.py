@@ -77,12 +77,10 @@ def command(
 
 
 def _print_table(found: Screws, robot: Robot) -> None:
-    from rich.table import Table
-
     from pinscrew.screw import Screw
 
     frame = found.tip if found.at == "body" else found.base
-    table = Table("joint", found.heading, "direction", "through", "pitch", "magnitude", box=None, pad_edge=False)
+    table = output.table("joint", found.heading, "direction", "through", "pitch", "magnitude")
     still = []
     for name, twist in zip(found.names, found.axes.T, strict=True):
         if not twist.any():

@@ -11,6 +11,7 @@ import ast
 import contextlib
 import math
 import re
+from collections import ChainMap
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
@@ -20,6 +21,8 @@ LONGEST: Final = 10_000
 """Characters of an expression."""
 LARGEST_POWER: Final = 4096
 """Bits of an integer power."""
+MOST_DIGITS: Final = 400
+"""Digits that a number is rounded to: for an integer, Python takes ten to the power of it."""
 LONGEST_RANGE: Final = 100_000
 """Length of a ``range``, a product of sequences, or a repeated sequence."""
 
@@ -94,15 +97,24 @@ def _product(a: Any, b: Any) -> Any:
 
 
 def _modulo(a: Any, b: Any) -> Any:
+    if isinstance(a, bytes):
+        raise ForbiddenError("a format of bytes")
     if isinstance(a, str) and ("*" in a or re.search(r"\d{4}", a)):
         raise ForbiddenError("a format with a width of more than three digits")
     return a % b
 
 
+def _round(number: Any, ndigits: Any = None) -> Any:
+    if isinstance(ndigits, int) and abs(ndigits) > MOST_DIGITS:
+        raise ForbiddenError(f"rounding to more than {MOST_DIGITS} digits")
+    return round(number, ndigits)
+
+
 FUNCTIONS: Final[Mapping[str, Any]] = {
-    **{f.__name__: f for f in (list, dict, map, len, str, float, int, bool, min, max, round, sorted, abs, all, any)},
+    **{f.__name__: f for f in (list, dict, map, len, str, float, int, bool, min, max, sorted, abs, all, any)},
     **{f.__name__: f for f in (divmod, enumerate, filter, isinstance, ord, repr, reversed, set, sum, tuple, zip)},
     "range": _range,
+    "round": _round,
     "True": True,
     "False": False,
 }
@@ -191,4 +203,5 @@ def evaluate(expression: str, symbols: Any, attribute: Callable[[Any, str], Any]
         for name in {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - guards.keys():
             with contextlib.suppress(KeyError, NameError):
                 guards[name] = symbols[name]
-    return eval(code, guards, symbols)  # noqa: S307 (checked above, node by node)
+    # The guards come first: a macro's parameter may be called as one of them.
+    return eval(code, guards, ChainMap(guards, symbols))  # noqa: S307 (checked above, node by node)

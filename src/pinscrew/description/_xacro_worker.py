@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import sys
 
-if __name__ == "__main__":
+if __name__ == "__main__" and not getattr(sys.flags, "safe_path", False):
     del sys.path[0]  # this script's folder, whose modules must not shadow anyone's
 
 import contextlib
 import io
 import json
-import re
 import resource
 from collections.abc import Mapping
 from pathlib import Path
@@ -25,7 +24,8 @@ from xacro import substitution_args
 
 from pinscrew.description import _xacro_expressions as expressions
 from pinscrew.description import markup
-from pinscrew.description.packages import Packages
+from pinscrew.description._words import brief, one_line
+from pinscrew.description.packages import Packages, is_file
 from pinscrew.errors import DescriptionError
 
 _MACROS: Final = ("arg", "dotify", "tokenize", "abs_filename", "load_yaml")
@@ -59,7 +59,11 @@ class _Session:
                 known = ", ".join(self.declared) or "none"
                 raise _RefusedError("xacro-argument", f"declares no argument {name!r}", f"declared are: {known}")
         text: str = document.toprettyxml(indent="  ")
-        if len(text) > markup.MAX_BYTES:
+        try:
+            size = len(text.encode())
+        except UnicodeEncodeError:  # ${'\ud800'} is half of a character
+            raise _RefusedError("encoding", "its expansion holds what is no character") from None
+        if size > markup.MAX_BYTES:
             raise _RefusedError("too-large", f"its expansion is larger than {markup.MAX_BYTES // 2**20} MB")
         return text
 
@@ -83,7 +87,7 @@ class _Session:
         if mode != "r":
             raise _RefusedError("xacro-forbidden", "opens a file to write it")
         path = self.packages.check(Path(name))
-        if not path.is_file():
+        if not is_file(path):
             raise FileNotFoundError(2, "there is no such file", name)
         text = markup.read(path)
         if path.suffix not in (".yaml", ".yml"):
@@ -140,27 +144,28 @@ def _limit(seconds: int, memory: int) -> None:
         resource.setrlimit(which, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
 
 
-def _one_line(text: str) -> str:
-    return re.sub(r"\s+", " ", re.sub(r"\x1b\[[0-9;]*m", "", text)).strip()
-
-
 def _explain(error: BaseException) -> dict[str, Any]:
     """What went wrong, from the innermost error that says so: xacro wraps them."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, _RefusedError):
-            return {"code": cause.code, "error": str(cause), "remedy": cause.remedy}
+            return {"code": cause.code, "error": _short(str(cause)), "remedy": _short(cause.remedy)}
         if isinstance(cause, DescriptionError):
-            return {"code": cause.code, "error": cause.what, "remedy": cause.remedy, "at": cause.where}
+            place = {"file": cause.file, "line": cause.line}
+            return {"code": cause.code, "error": _short(cause.what), "remedy": _short(cause.remedy), **place}
         if isinstance(cause, expressions.ForbiddenError):
             remedy = "use arithmetic, comparison, conditionals, and xacro's, Python's plain and math functions"
-            return {"code": "xacro-forbidden", "error": f"may not use {_one_line(str(cause))}", "remedy": remedy}
+            return {"code": "xacro-forbidden", "error": f"may not use {_short(str(cause))}", "remedy": remedy}
         if isinstance(cause, RecursionError):
             return {"code": "xacro-limit", "error": "includes or expands itself without end"}
         if isinstance(cause, MemoryError):
             return {"code": "xacro-limit", "error": "its expansion takes too much memory"}
         cause = getattr(cause, "exc", None)
-    return {"code": "xacro", "error": _one_line(str(error)) or type(error).__name__}
+    return {"code": "xacro", "error": _short(str(error)) or type(error).__name__}
+
+
+def _short(text: str) -> str:
+    return one_line(brief(text))
 
 
 def main() -> None:
@@ -173,8 +178,8 @@ def main() -> None:
         try:
             answer["text"] = _Session(request).expand()
         except Exception as error:  # whatever xacro raises is an error of the file
-            answer |= _explain(error)
-    answer["warnings"] = [line for line in map(_one_line, said.getvalue().splitlines()) if line][:20]
+            answer = {"file": (xacro.filestack or [request["file"]])[-1], **_explain(error)}
+    answer["warnings"] = [line for line in map(_short, said.getvalue().splitlines()) if line][:20]
     json.dump(answer, sys.stdout)
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Final
 
 from pinscrew.description import expand, markup
+from pinscrew.description.packages import is_file
 from pinscrew.errors import MissingExtraError, UnknownNameError
 
 __all__ = ["Entry", "bundled", "declared_arguments", "example_robots", "find", "robots_directory"]
@@ -97,7 +98,7 @@ def find(source: str | Path) -> Entry:
         UnknownNameError: if it names none of them; the message lists what comes close.
     """
     path = Path(source)
-    if isinstance(source, Path) or path.suffix in (".urdf", ".xacro", ".xml") or path.is_file():
+    if isinstance(source, Path) or path.suffix in (".urdf", ".xacro", ".xml") or is_file(path):
         return _of_path(path)
     for entry in bundled():
         if source == entry.name or source in entry.aliases:
@@ -120,7 +121,7 @@ def find(source: str | Path) -> Entry:
 
 def _of_path(path: Path) -> Entry:
     """The file's own entry; a bundled file keeps what the catalogue says of it."""
-    if path.is_file():
+    if is_file(path):
         for entry in bundled():
             if path.samefile(entry.file):
                 return entry

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+from pinscrew.description._words import brief, one_line
 from pinscrew.description.packages import Packages
 from pinscrew.errors import PinscrewWarning, XacroError
 
@@ -56,13 +57,19 @@ def expand(path: Path, arguments: Mapping[str, str], packages: Packages | None =
     for message in answer["warnings"]:
         warnings.warn(PinscrewWarning("xacro", f"{path}: {message}"), stacklevel=2)
     if "error" in answer:
-        raise XacroError(answer["code"], answer["error"], file=answer.get("at", path), remedy=answer.get("remedy", ""))
+        raise XacroError(
+            answer["code"],
+            answer["error"],
+            file=answer["file"],
+            line=answer.get("line"),
+            remedy=answer.get("remedy", ""),
+        )
     text: str = answer["text"]
     return text
 
 
 def _ask(request: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The worker's answer, or None where it did not live to give one."""
+    """The worker's answer, or None where a limit ended it."""
     try:
         child = subprocess.run(  # noqa: S603 (our own worker, under our own interpreter)
             [sys.executable, str(_WORKER)],
@@ -72,7 +79,12 @@ def _ask(request: Mapping[str, Any]) -> dict[str, Any] | None:
             text=True,
             timeout=SECONDS,
         )
-        answer: dict[str, Any] = json.loads(child.stdout)
-    except (subprocess.TimeoutExpired, json.JSONDecodeError):
+    except subprocess.TimeoutExpired:
         return None
+    if child.returncode < 0 or "MemoryError" in child.stderr:
+        return None
+    if child.returncode > 0:
+        what = f"its expansion failed: {one_line(brief(child.stderr))}"
+        raise XacroError("xacro", what, file=request["file"])
+    answer: dict[str, Any] = json.loads(child.stdout)
     return answer

@@ -16,12 +16,16 @@ from xml.parsers import expat
 
 from pinscrew.errors import DescriptionError
 
-__all__ = ["MAX_BYTES", "MAX_ELEMENTS", "Element", "decode", "parse", "read"]
+__all__ = ["MAX_BYTES", "Element", "decode", "parse", "read"]
 
 MAX_BYTES: Final = 20 * 2**20
 """Largest file that is read."""
 MAX_ELEMENTS: Final = 250_000
 """Most elements that a file may have: five million ``<a/>`` would take 20 MB as text and 1.3 GB as elements."""
+MAX_ATTRIBUTES: Final = 1_000
+"""Most attributes of an element: tinyxml2 (in Pinocchio) takes time that grows with their square."""
+MAX_VALUE: Final = 100_000
+"""Most characters of an attribute's value: lxml (in yourdfpy) does not read ten million."""
 
 _BOM: Final = b"\xef\xbb\xbf"
 _DECLARED: Final = re.compile(rb"""<\?xml[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
@@ -46,16 +50,18 @@ def read(path: Path) -> str:
     """The text of a file of at most ``MAX_BYTES``.
 
     Raises:
-        DescriptionError: if it can't be read, is too large, or is not UTF-8.
+        DescriptionError: if it can't be read, is no plain file (a pipe may never end), is too large, or is not UTF-8.
     """
     try:
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise DescriptionError("unreadable", "can't be read (it is no plain file)", file=path)
         with path.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
         raise DescriptionError("no-file", "there is no such file", file=path) from None
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise DescriptionError("unreadable", f"can't be read ({reason})", file=path) from error
+    except (OSError, ValueError) as error:  # ValueError: a NUL character in the path
+        reason = getattr(error, "strerror", None) or str(error)
+        raise DescriptionError("unreadable", f"can't be read ({reason})", file=path) from None
     return decode(data, path)
 
 
@@ -96,8 +102,14 @@ def parse(text: str, file: str | Path) -> Element:
     count = itertools.count(1)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
-        if next(count) > MAX_ELEMENTS:
-            raise DescriptionError("too-large", f"more than {MAX_ELEMENTS} elements", file=file)
+        for size, most, of_what in (
+            (next(count), MAX_ELEMENTS, "elements"),
+            (len(attributes), MAX_ATTRIBUTES, "attributes of an element"),
+            (max(map(len, attributes.values()), default=0), MAX_VALUE, "characters in an attribute"),
+        ):
+            if size > most:
+                what = f"more than {most} {of_what}"
+                raise DescriptionError("too-large", what, file=file, line=parser.CurrentLineNumber)
         keep_text()
         element = Element(tag, attributes, parser.CurrentLineNumber)
         (open_elements[-1].children if open_elements else roots).append(element)

@@ -6,7 +6,8 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from pinscrew.description import markup
-from pinscrew.description.packages import Packages
+from pinscrew.description._words import brief
+from pinscrew.description.packages import Packages, is_file
 from pinscrew.errors import DescriptionError
 
 __all__ = ["mesh_file"]
@@ -24,25 +25,29 @@ def mesh_file(uri: str, packages: Packages) -> Path:
             is unknown, or it does not exist.
     """
     path = packages.resolve(uri)
-    if not path.is_file():
-        raise DescriptionError("no-mesh", f"its mesh {uri!r} is not at {str(path)!r}", file=packages.file)
+    if not is_file(path):
+        what = f"its mesh {brief(uri)!r} is not at {brief(str(path))!r}"
+        raise DescriptionError("no-mesh", what, file=packages.file)
     if path.suffix.lower() == ".dae":
         for image in _images(path):
             if "://" in image:
                 packages.resolve(image)
             else:
-                packages.check(path.parent / unquote(image))
+                for name in (image, unquote(image)):
+                    packages.check(path.parent / name)
     return path
 
 
 def _images(path: Path) -> list[str]:
-    """The files that a COLLADA document takes images from: the text of its ``<init_from>`` in ``<image>``s."""
+    """The files that a COLLADA document takes images from, and names of images, which do no harm here.
+
+    Viewers find them in their own ways: by ``<init_from>`` in any namespace, or the ``<ref>`` in one.
+    """
     found: list[str] = []
-    pending = [(markup.parse(markup.read(path), path), False)]
+    pending = [markup.parse(markup.read(path), path)]
     while pending:
-        element, in_image = pending.pop()
-        in_image = in_image or element.tag == "image"
-        if in_image and element.tag in ("init_from", "ref") and element.text.strip():
-            found.append(element.text.strip())
-        pending.extend((child, in_image) for child in element.children)
+        element = pending.pop()
+        if "init_from" in element.tag or element.tag.rpartition(":")[2] == "ref":
+            found += {element.text, element.text.strip()} - {""}
+        pending.extend(element.children)
     return found

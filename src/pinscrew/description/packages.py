@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -11,9 +12,10 @@ from types import MappingProxyType
 from typing import Final
 from urllib.parse import unquote
 
+from pinscrew.description._words import brief, one_line
 from pinscrew.errors import DescriptionError
 
-__all__ = ["Packages"]
+__all__ = ["Packages", "is_file"]
 
 _NAME: Final = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 _DEPTH: Final = 4
@@ -44,13 +46,13 @@ class Packages:
             DescriptionError: if there is none of this name.
         """
         for root in self._candidates(name):
-            if root.is_dir():
+            if _is_folder(root):
                 return root.resolve()
         raise DescriptionError(
             "unknown-package",
-            f"there is no package {name!r}",
+            f"there is no package {brief(name)!r}",
             file=self.file,
-            remedy=f"say where it is: --package {name}:=PATH",
+            remedy=f"say where it is: --package {one_line(brief(name))}:=PATH",
         )
 
     def _candidates(self, name: str) -> Iterator[Path]:
@@ -74,7 +76,7 @@ class Packages:
     def _own_package(self) -> Path | None:
         """The nearest folder above the file that holds a ``package.xml``."""
         for folder in self.file.resolve().parents:
-            if (folder / "package.xml").is_file():
+            if is_file(folder / "package.xml"):
                 return folder
         return None
 
@@ -91,13 +93,17 @@ class Packages:
         """The path with its links followed, if it may be read.
 
         Raises:
-            DescriptionError: if it is outside all `roots`.
+            DescriptionError: if it is outside all `roots`, or its links lead nowhere.
         """
-        resolved = path.resolve()
+        try:
+            resolved = path.resolve()
+        except (OSError, RuntimeError, ValueError) as error:  # links in a circle, a NUL character
+            what = f"asks for {brief(str(path))!r}, which is no path ({one_line(str(error))})"
+            raise DescriptionError("unreadable", what, file=self.file) from None
         if not self.allow_outside and not any(resolved.is_relative_to(root) for root in self.roots()):
             raise DescriptionError(
                 "outside",
-                f"asks for {str(path)!r}, which is outside its own folder and the declared packages",
+                f"asks for {brief(str(path))!r}, which is outside its own folder and the declared packages",
                 file=self.file,
                 remedy="declare its package with --package NAME:=PATH, or give --allow-outside",
             )
@@ -115,17 +121,32 @@ class Packages:
         scheme, separator, rest = uri.partition("://")
         if not separator:
             return self.check(self.file.parent / uri)
-        if scheme == "file":
+        if scheme == "file" and rest.startswith("/"):
             return self.check(Path(unquote(rest)))
         if scheme in ("package", "model"):
             name, _, path = rest.partition("/")
             return self.check(self.find(name) / path)
         raise DescriptionError(
             "remote-file",
-            f"asks for {uri!r}; nothing is fetched from elsewhere",
+            f"asks for {brief(uri)!r}; nothing is fetched from elsewhere",
             file=self.file,
             remedy="use a path, package:// or file://",
         )
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is a file of this name; not where the name can't be one, or may not be asked for."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
 
 
 def _paths(variable: str) -> list[Path]:
@@ -134,12 +155,13 @@ def _paths(variable: str) -> list[Path]:
 
 def _packages_below(folder: Path, depth: int) -> Iterator[Path]:
     """Folders with a ``package.xml``, at most ``depth`` levels down and none inside another."""
-    if (folder / "package.xml").is_file():
+    if is_file(folder / "package.xml"):
         yield folder
-    elif depth and folder.is_dir():
-        for child in sorted(folder.iterdir()):
-            if child.is_dir() and not child.is_symlink() and not child.name.startswith("."):
-                yield from _packages_below(child, depth - 1)
+    elif depth and _is_folder(folder):
+        with contextlib.suppress(OSError):  # a folder that may not be read
+            for child in sorted(folder.iterdir()):
+                if _is_folder(child) and not child.is_symlink() and not child.name.startswith("."):
+                    yield from _packages_below(child, depth - 1)
 
 
 def _package_name(root: Path) -> str:

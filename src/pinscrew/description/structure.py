@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from pinscrew.description._words import brief
 from pinscrew.description.markup import Element
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES
 from pinscrew.errors import DescriptionError, PinscrewWarning, UnsupportedError
@@ -23,10 +24,17 @@ __all__ = ["MIN_AXIS", "Checked", "check"]
 MIN_AXIS: Final = 1e-9
 """Shortest axis whose direction is believed: well above the rounding of any file with 9 digits or fewer."""
 
+MAX_NUMBER: Final = 1e9
+"""Largest number of an origin, axis or mimic; squares of much larger ones overflow in both parsers."""
+
 UNIT_AXIS: Final = 1e-6
 """An axis whose length differs from one by less is taken as rounded, and normalised without a warning."""
 
-_NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+MAX_LINKS: Final = 20_000
+"""Most links of a robot: reading ten thousand takes some 3 s."""
+
+# No two parts of it match the same digits, so that a long line of them takes no time that grows with the square.
+_NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _SPACE: Final = " \t\r\n"
 _WORD: Final = re.compile(rf"[^{_SPACE}]+")
 
@@ -67,6 +75,9 @@ class _Check:
         joints = self._named(root, "joint")
         if not links:
             raise self.error("no-links", root, "has no links", "describe at least one <link>", label="<robot>")
+        if len(links) > MAX_LINKS:
+            what = f"{len(links)} links are more than {MAX_LINKS}"
+            raise self.error("too-large", root, what, label="<robot>")
         if not root.attributes.get("name", "").strip(_SPACE):
             raise self.error("no-name", root, "has no name", 'write <robot name="...">', label="<robot>")
         for joint in joints.values():
@@ -85,13 +96,12 @@ class _Check:
         label: str | None = None,
         kind: type[DescriptionError] = DescriptionError,
     ) -> DescriptionError:
-        if label is None:
-            label = f"{element.tag} {element.attributes.get('name', '')!r}"
-        return kind(code, what, file=self.file, line=element.line, element=label, remedy=remedy)
+        label = _label(element) if label is None else label
+        return kind(code, brief(what), file=self.file, line=element.line, element=label, remedy=remedy)
 
     def warn(self, code: str, element: Element, what: str) -> None:
-        label = f"{element.tag} {element.attributes['name']!r}"
-        warnings.warn(PinscrewWarning(code, f"{self.file}:{element.line}: {label}: {what}"), stacklevel=2)
+        message = f"{self.file}:{element.line}: {_label(element)}: {brief(what)}"
+        warnings.warn(PinscrewWarning(code, message), stacklevel=2)
 
     def _named(self, root: Element, tag: str) -> dict[str, Element]:
         """The elements with this tag, by their names, which must be there and unique."""
@@ -144,8 +154,10 @@ class _Check:
                 "unknown-link", joint, f"its {tag} is {name!r}, but no link is called so", "define the link"
             )
 
-    def _numbers(self, joint: Element, element: Element, attribute: str, count: int) -> list[float] | None:
-        """The numbers in an attribute, or None where it is absent."""
+    def _numbers(
+        self, joint: Element, element: Element, attribute: str, count: int, most: float = MAX_NUMBER
+    ) -> list[float] | None:
+        """The numbers in an attribute, of at most ``most``, or None where it is absent."""
         text = element.attributes.get(attribute)
         if text is None:
             return None
@@ -158,6 +170,8 @@ class _Check:
         for word in words:
             if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
                 raise self.error("number", joint, f"{place}: {word!r} is not a finite number", remedy)
+            if not abs(float(word)) <= most:
+                raise self.error("number", joint, f"{place}: {word} is larger than {most:g}", remedy)
         return [float(word) for word in words]
 
     def _axis(self, joint: Element, *, planar: bool) -> None:
@@ -186,7 +200,7 @@ class _Check:
                 raise self.error("no-limit", joint, f"a {kind} joint needs a <limit>", example)
             return
         values = {
-            attribute: self._numbers(joint, limit, attribute, 1)
+            attribute: self._numbers(joint, limit, attribute, 1, math.inf)
             for attribute in ("lower", "upper", "effort", "velocity")
         }
         for attribute in ("effort", "velocity"):
@@ -224,15 +238,17 @@ class _Check:
                     what = f"mimics {master!r}, but {which!r} is {bad} and has no single value"
                     raise self.error("mimic-type", joint, what, "let scalar joints mimic scalar joints")
             masters[name] = master
+        ending: set[str] = set()  # mimics that are known to follow a joint that moves freely
         for name, first in masters.items():
-            seen = {name}
-            master = first
-            while master in masters:
+            seen: set[str] = set()
+            master = name
+            while master in masters and master not in ending:
                 if master in seen:
                     what = f"mimics {first!r}, which in the end mimics itself"
                     raise self.error("mimic-cycle", joints[name], what, "let one of them move freely")
                 seen.add(master)
                 master = masters[master]
+            ending |= seen
 
     def _tree(
         self, root: Element, links: dict[str, Element], joints: dict[str, Element]
@@ -261,6 +277,10 @@ class _Check:
             what = "is on a cycle of joints, and no root link leads to it"
             raise self.error("cycle", links[lost], what, "break the cycle: URDF describes trees")
         return tuple(order), tuple(leading[name] for name in order[1:])
+
+
+def _label(element: Element) -> str:
+    return f"{element.tag} {brief(element.attributes.get('name', ''))!r}"
 
 
 def _depth_first(tops: list[str], below: Callable[[str], list[str]]) -> list[str]:

@@ -6,17 +6,29 @@ import io
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree as ET
 
 import numpy as np
-import yourdfpy
 
 from pinscrew.description import markup, structure
 from pinscrew.description.model import Description, Joint, Limits, Mimic
 
+if TYPE_CHECKING:
+    import yourdfpy
+
 __all__ = ["parse"]
 
-_KINEMATIC = ("parent", "child", "origin", "axis", "limit", "mimic")
+_KINEMATIC: Final[Mapping[str, frozenset[str]]] = {
+    "joint": frozenset(("name", "type")),
+    "parent": frozenset(("link",)),
+    "child": frozenset(("link",)),
+    "origin": frozenset(("xyz", "rpy")),
+    "axis": frozenset(("xyz",)),
+    "limit": frozenset(("lower", "upper", "effort", "velocity")),
+    "mimic": frozenset(("joint", "multiplier", "offset")),
+}
+"""The elements of a joint, and their attributes, that kinematics depends on."""
 
 
 def parse(text: str, file: str | Path, arguments: Mapping[str, str] | None = None) -> Description:
@@ -49,16 +61,23 @@ def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
     It is given these alone: it refuses geometry that it does not know, and reads no link at all where an
     ``xmlns`` is declared.
     """
+    import yourdfpy  # here, since it takes half a second that no error should wait for
+
     robot = ET.Element("robot", name=checked.name)
     for link in checked.links:
         ET.SubElement(robot, "link", name=link)
     for joint in checked.joints:
-        copy = ET.SubElement(robot, "joint", joint.attributes)
+        copy = _copy(joint, robot)
         for child in joint.children:
             if child.tag in _KINEMATIC:
-                ET.SubElement(copy, child.tag, child.attributes)
+                _copy(child, copy)
     stream = io.BytesIO(ET.tostring(robot, encoding="utf-8"))
     return yourdfpy.URDF.load(stream, load_meshes=False, build_scene_graph=False).robot
+
+
+def _copy(element: markup.Element, parent: ET.Element) -> ET.Element:
+    known = _KINEMATIC[element.tag]
+    return ET.SubElement(parent, element.tag, {k: v for k, v in element.attributes.items() if k in known})
 
 
 def _joint(joint: yourdfpy.Joint, line: int) -> Joint:

@@ -234,7 +234,7 @@ def _check_size(robot: Robot) -> None:
     depths = {robot.base: 0}
     for joint in robot.description.joints:
         depths[joint.child] = depths[joint.parent] + 1
-    velocities = sum(motion.twists.shape[1] for motion in robot.mechanism.motions)
+    velocities = sum(motion.freedoms for motion in robot.mechanism.motions)
     for count, limit, what in (
         (velocities, MAX_COORDINATES, "velocities (mimic joints counted)"),
         (max(depths.values()), MAX_DEPTH, "joints in a chain"),

@@ -226,9 +226,9 @@ class _Chain:
         if index not in self._columns:
             motion = self._motions[index]
             # A joint with one velocity leaves its own screw as it is; others move theirs along.
-            carrier = motion.parent if motion.twists.shape[1] == 1 else index
+            carrier = motion.parent if motion.freedoms == 1 else index
             R, p = self._displacement(carrier)
-            column = np.empty((6, motion.twists.shape[1], self._size))
+            column = np.empty((6, motion.freedoms, self._size))
             column[3:] = times(R, motion.twists[3:])
             column[:3] = times(R, motion.twists[:3]) + cross(p[:, None], column[3:])
             self._columns[index] = column
@@ -238,7 +238,7 @@ class _Chain:
         """Time derivative (6, k, B) of a joint's columns: ad of the twist that carries them."""
         motion = self._motions[index]
         column = self._column(index)
-        twist = self._twist(motion.parent if motion.twists.shape[1] == 1 else index)[:, None]
+        twist = self._twist(motion.parent if motion.freedoms == 1 else index)[:, None]
         rate = np.empty_like(column)
         rate[:3] = cross(twist[3:], column[:3]) + cross(twist[:3], column[3:])
         rate[3:] = cross(twist[3:], column[3:])

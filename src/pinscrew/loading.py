@@ -1,0 +1,53 @@
+"""A robot by its name or file: the way from the catalogue through xacro and URDF to a `Robot`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from pinscrew.description import catalogue, expand, markup, urdf
+from pinscrew.description.packages import Packages
+from pinscrew.errors import DescriptionError
+from pinscrew.robot import Robot
+
+__all__ = ["load"]
+
+
+def load(
+    source: str | Path,
+    *,
+    floating_base: bool = False,
+    tip: str | None = None,
+    arguments: Mapping[str, float | str] | None = None,
+    packages: Mapping[str, str | Path] | None = None,
+    allow_outside: bool = False,
+    **more: float | str,
+) -> Robot:
+    """Load a robot.
+
+    Args:
+        source: a bundled robot (``pinscrew list`` names them), the path of a URDF or xacro file, or the name of
+            a URDF of example-robot-data.
+        floating_base: let the root link float: seven coordinates (x, y, z and a quaternion x, y, z, w) come first.
+        tip: the default tip frame.
+        arguments: the xacro file's arguments, where their names are no Python identifiers or are taken here.
+        packages: roots of ROS packages by name, for ``$(find …)`` and ``package://``; the environment's and the
+            file's own are found without.
+        allow_outside: let a xacro file read files outside its own folder and the packages.
+        more: the xacro file's arguments, such as ``l1=0.4``.
+
+    Raises:
+        UnknownNameError: if there is no such robot, file, or frame ``tip``.
+        DescriptionError: if the file can't be used.
+    """
+    entry = catalogue.find(source)
+    given = {name: str(value) for name, value in {**(arguments or {}), **more}.items()}
+    text = markup.read(entry.file)
+    if expand.is_xacro(entry.file):
+        roots = {name: Path(root) for name, root in (packages or {}).items()}
+        text = expand.expand(entry.file, given, Packages(entry.file, roots, allow_outside))
+    elif given:
+        what = f"a plain URDF has no arguments, but {', '.join(given)} came"
+        raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")
+    description = urdf.parse(text, entry.file, given)
+    return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)

@@ -1,0 +1,204 @@
+"""Runs the command line in child processes under limits, so that no input can hurt the tests themselves.
+
+A server (this file as a script) imports pinscrew and its parsers once. For each request it forks a child, which gets
+its limits, runs ``python -m pinscrew`` and is waited for: a request takes milliseconds instead of a second.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import resource
+import runpy
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any, Final
+
+SECONDS: Final = 10
+MEMORY: Final = 2**30
+"""Bytes that a child may hold in memory, its own children's included, and map beyond what the imports did."""
+NOBODY: Final = 65534
+
+
+@dataclass(frozen=True)
+class Result:
+    """What became of a child.
+
+    Attributes:
+        status: exit status; negative, the signal that ended it.
+        peak: most bytes that it, or a child of it, held in memory, shared ones included.
+    """
+
+    status: int
+    stdout: str
+    stderr: str
+    seconds: float
+    peak: int
+
+
+class Server:
+    """The client's side: a context manager, started once per test process."""
+
+    def __enter__(self) -> Server:
+        command = [sys.executable, "-W", "ignore", __file__]
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONUTF8": "1"}
+        self._process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, text=True
+        )
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stream(self._process.stdin).close()
+        self._stream(self._process.stdout).close()
+        self._process.wait(SECONDS)
+
+    @staticmethod
+    def _stream(stream: IO[str] | None) -> IO[str]:
+        assert stream is not None
+        return stream
+
+    def run(
+        self,
+        *arguments: str | Path,
+        expansion: int | None = None,
+        environment: Mapping[str, str] | None = None,
+        unprivileged: bool = False,
+        folder: str | Path | None = None,
+    ) -> Result:
+        """Run ``pinscrew`` with these arguments.
+
+        Args:
+            arguments: of the command line.
+            expansion: seconds that a xacro file may take, for attacks that would use them all.
+            environment: variables to add.
+            unprivileged: run without root's rights to read everything.
+            folder: where to run.
+        """
+        request = {
+            "arguments": [str(argument) for argument in arguments],
+            "expansion": expansion,
+            "environment": dict(environment or {}),
+            "unprivileged": unprivileged,
+            "folder": str(folder or Path.cwd()),
+        }
+        stream = self._stream(self._process.stdin)
+        stream.write(json.dumps(request) + "\n")
+        stream.flush()
+        return Result(**json.loads(self._stream(self._process.stdout).readline()))
+
+
+def _serve() -> None:
+    import rich.table  # noqa: F401 (what a child needs is imported before it is forked)
+
+    import pinscrew.cli.fk
+    import pinscrew.cli.verify
+    import pinscrew.description.expand
+    import pinscrew.engines.pinocchio
+    import pinscrew.engines.poe
+    import pinscrew.verification.run  # noqa: F401
+
+    replies = os.fdopen(os.dup(1), "w")
+    for line in sys.stdin:
+        json.dump(_answer(json.loads(line)), replies)
+        replies.write("\n")
+        replies.flush()
+
+
+def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        start = time.monotonic()
+        child = os.fork()
+        if child == 0:
+            _run(request, out.fileno(), err.fileno())
+        status, peak = _wait(child, start)
+        texts = []
+        for stream in (out, err):
+            stream.seek(0)
+            texts.append(stream.read().decode(errors="replace"))
+    seconds = time.monotonic() - start
+    return {"status": status, "stdout": texts[0], "stderr": texts[1], "seconds": seconds, "peak": peak}
+
+
+def _wait(child: int, start: float) -> tuple[int, int]:
+    """Exit status and peak memory of a child, killed with all its own when its time is up."""
+    while True:
+        pid, status, usage = os.wait4(child, os.WNOHANG)
+        if pid:
+            unit = 1 if sys.platform == "darwin" else 1024
+            return os.waitstatus_to_exitcode(status), usage.ru_maxrss * unit
+        if time.monotonic() - start > SECONDS:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(child, signal.SIGKILL)
+        time.sleep(0.002)
+
+
+def _run(request: Mapping[str, Any], out: int, err: int) -> None:
+    """The child: never returns."""
+    from pinscrew.description import expand
+
+    os.setsid()
+    os.dup2(out, 1)
+    os.dup2(err, 2)
+    sys.stdout, sys.stderr = (os.fdopen(fd, "w", encoding="utf-8") for fd in (1, 2))
+    os.chdir(request["folder"])
+    os.environ.update(request["environment"])
+    if request["expansion"]:
+        expand.SECONDS = request["expansion"]
+    if request["unprivileged"] and os.geteuid() == 0:
+        os.setegid(NOBODY)
+        os.seteuid(NOBODY)
+    _limit()
+    sys.argv = ["pinscrew", *request["arguments"]]
+    status = 0
+    try:
+        runpy.run_module("pinscrew", run_name="__main__", alter_sys=True)
+    except SystemExit as end:
+        status = int(end.code or 0)
+    except BaseException:
+        import traceback
+
+        traceback.print_exc()
+        status = 99
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
+
+
+def _limit() -> None:
+    limits = {resource.RLIMIT_CPU: SECONDS, resource.RLIMIT_CORE: 0, resource.RLIMIT_FSIZE: 2**26}
+    if sys.platform == "linux":
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+        limits[resource.RLIMIT_AS] = pages * resource.getpagesize() + MEMORY
+    for which, most in limits.items():
+        resource.setrlimit(which, (most, resource.getrlimit(which)[1]))
+
+
+def one_error(result: Result, words: Sequence[str]) -> str:
+    """The message of a child that ended with one error of pinscrew, without ``pinscrew:``, and nothing else."""
+    assert result.status == 2, result
+    assert result.stdout == ""
+    lines = result.stderr.splitlines()
+    assert len(lines) == 1, result.stderr[:2000]
+    assert lines[0].startswith("pinscrew: ")
+    assert not lines[0].startswith("pinscrew: warning: ")
+    for word in words:
+        assert word in lines[0]
+    within_limits(result)
+    return lines[0].removeprefix("pinscrew: ")
+
+
+def within_limits(result: Result) -> None:
+    """Time is kept by the server, which kills; memory is looked at here."""
+    assert result.seconds < SECONDS
+    assert result.peak < MEMORY
+
+
+if __name__ == "__main__":
+    _serve()
