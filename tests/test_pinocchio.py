@@ -116,6 +116,15 @@ def test_missing_axis_and_origin() -> None:
     assert_engines_agree(robot, 5)
 
 
+def test_mimics_of_fixed_joints_are_ignored() -> None:
+    text = urdfs.only_fixed().replace("</joint>", '<mimic joint="nowhere" multiplier="2"/></joint>')
+    with pytest.warns(PinscrewWarning, match="joint 'f': is fixed, so its <mimic> was ignored"):
+        robot = urdfs.load(text)
+    assert_engines_agree(robot, 1)
+    for make in (ps.PoE, ps.Pinocchio):
+        assert make(robot).joints()["f"].mimic is None
+
+
 def test_pinocchio_rounds_axes_by_1e_12() -> None:
     """Pinocchio takes an axis within 1e-12 of a coordinate axis for it; PoE does not. No bug, but no zero either."""
     for tilt, error in ((9e-13, 9e-10), (2e-12, 0.0)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -11,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from pinscrew.description.model import SCALAR_TYPES, Description, Joint, read_only
+from pinscrew.errors import DescriptionError
 from pinscrew.lie import se3
 from pinscrew.typing import FloatArray
 
@@ -156,6 +158,10 @@ def _coordinates(description: Description) -> Coordinates:
             velocity_names += [f"{joint.name}.{part}" for part in _VELOCITIES[joint.type]]
             limits += [(-math.inf, math.inf)] * len(_POSITIONS[joint.type])
             neutral += [float(part == "qw") for part in _POSITIONS[joint.type]]
+    for name, count in Counter(names).items():
+        if count > 1:
+            what = f"two coordinates would be called {name!r}"
+            raise DescriptionError("reserved-name", what, file=description.file, remedy="rename the joint")
     return Coordinates(
         joint_names=tuple(q),
         names=tuple(names),

@@ -38,10 +38,10 @@ class _Named(Protocol):
 KindLike: TypeAlias = str | _Named
 """A `JacobianKind`, Pinocchio's name for it, or a member of ``pinocchio.ReferenceFrame``."""
 
-_ALIASES: Final[dict[str, JacobianKind]] = {
-    "WORLD": "spatial",
-    "LOCAL": "body",
-    "LOCAL_WORLD_ALIGNED": "hybrid",
+_NAMES_IN_PINOCCHIO: Final[dict[JacobianKind, str]] = {
+    "spatial": "WORLD",
+    "body": "LOCAL",
+    "hybrid": "LOCAL_WORLD_ALIGNED",
 }
 
 
@@ -51,11 +51,10 @@ def jacobian_kind(kind: KindLike) -> JacobianKind:
     Raises:
         InputError: if ``kind`` names no Jacobian.
     """
-    if kind in KINDS:
-        return kind
     name = kind if isinstance(kind, str) else getattr(kind, "name", None)
-    if isinstance(name, str) and name in _ALIASES:
-        return _ALIASES[name]
+    for known in KINDS:
+        if isinstance(name, str) and name in (known, _NAMES_IN_PINOCCHIO[known]):
+            return known
     raise InputError(
         "jacobian-kind",
         f"{kind!r} is not a kind of Jacobian",

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Final, Literal, TypeAlias, get_args
+from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from pinscrew.typing import FloatArray
 
-__all__ = ["JOINT_TYPES", "SCALAR_TYPES", "Description", "Joint", "JointType", "Limits", "Mimic"]
+__all__ = ["JOINT_TYPES", "SCALAR_TYPES", "Description", "Joint", "JointType", "Limits", "Mimic", "Rebuilt"]
 
 JointType: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
 JOINT_TYPES: Final[tuple[JointType, ...]] = get_args(JointType)
 SCALAR_TYPES: Final[frozenset[JointType]] = frozenset({"revolute", "continuous", "prismatic"})
 """Joints with one coordinate along or about an axis."""
+
+
+class Rebuilt:
+    """A dataclass that is pickled and copied by its fields: made anew, with its arrays read-only again."""
+
+    __slots__ = ()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        values = (getattr(self, f.name) for f in fields(self) if f.init)  # type: ignore[arg-type]
+        return type(self), tuple(dict(v) if isinstance(v, MappingProxyType) else v for v in values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +51,7 @@ class Mimic:
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class Joint(Rebuilt):
     """One joint as the file states it.
 
     Attributes:
@@ -67,7 +77,7 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Description:
+class Description(Rebuilt):
     """A robot as its file describes it, checked to be one tree.
 
     Attributes:
@@ -84,7 +94,10 @@ class Description:
     text: str = field(repr=False)
     links: tuple[str, ...]
     joints: tuple[Joint, ...]
-    arguments: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    arguments: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "arguments", MappingProxyType(dict(self.arguments)))
 
     @property
     def root(self) -> str:

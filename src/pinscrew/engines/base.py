@@ -190,8 +190,7 @@ class CheckedEngine(ABC):
         Raises:
             InputError, UnknownNameError: see `jacobian`.
         """
-        q, qd, _ = self._motion(q, qd)
-        names = [self._robot.frame(frame) for frame in frames]
+        q, qd, names = self._asked(q, qd, frames)
         return Answers(
             np.stack([self._poses(q, name) for name in names], axis=1),
             {kind: np.stack([self._jacobians(q, n, kind) for n in names], axis=1) for kind in KINDS},
@@ -238,12 +237,24 @@ class CheckedEngine(ABC):
         flat, _ = self._coordinates(np.broadcast_to(coordinates, (*batch, self._robot.nq)))
         return flat, _flat(np.broadcast_to(rates, (*batch, self._robot.nv))), batch
 
+    def _asked(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> tuple[FloatArray, FloatArray, list[str]]:
+        """What `answers` was asked, checked to be one flat batch and frames that exist."""
+        flat, flat_rates, batch = self._motion(q, qd)
+        if len(batch) != 1:
+            what = f"q and qd have the batch axes {batch}"
+            raise InputError("shape", what, where=self._robot.name, remedy="give one axis of N configurations")
+        return flat, flat_rates, [self._robot.frame(frame) for frame in frames]
+
     def _finite(self, values: ArrayLike, symbol: str, n: int, names: tuple[str, ...]) -> FloatArray:
         try:
-            array = np.asarray(values, dtype=np.float64)
-        except (TypeError, ValueError) as error:
+            given = np.asarray(values)
+        except ValueError as error:  # rows of different lengths
             what = f"{symbol} is not an array of numbers ({error})"
             raise InputError("not-numbers", what, where=self._robot.name) from None
+        if given.dtype.kind not in "fiu":
+            what = f"{symbol} is not an array of numbers but of {given.dtype}"
+            raise InputError("not-numbers", what, where=self._robot.name)
+        array = given.astype(np.float64, copy=False)
         if array.ndim == 0 or array.shape[-1] != n:
             listed = ", ".join(names) if len(names) <= 12 else f"{', '.join(names[:12])}, …"
             what = f"{symbol} has shape {array.shape}"

@@ -9,8 +9,10 @@ call and their Jacobian columns folded after it. Nothing here uses the descripti
 from __future__ import annotations
 
 import os
+import re
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -72,11 +74,23 @@ class Pinocchio(CheckedEngine):
         super().__init__(robot)
         _check_size(robot)
         self.model = _build(robot)
-        self._data = self.model.createData()
+        self._threads = threading.local()
         self._mimics = _read_mimics(robot)
         self._driven, self._fold = self._map_coordinates()
         self._frames = {name: self._frame_id(name) for name in robot.frame_names}
         self._plain = bool(np.array_equal(self._fold, np.eye(robot.nv)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._robot,)
+
+    @property
+    def _data(self) -> Any:
+        """Pinocchio's scratch memory: one for each thread, since two would overwrite each other's."""
+        try:
+            return self._threads.data
+        except AttributeError:
+            self._threads.data = self.model.createData()
+            return self._threads.data
 
     def joints(self) -> Mapping[str, JointView]:
         """The joints as Pinocchio's parser saw them, by name."""
@@ -90,8 +104,6 @@ class Pinocchio(CheckedEngine):
         return views
 
     def _view(self, frame: Any, parent: str, child: str) -> JointView:
-        if self._robot.floating_base and parent == "universe":
-            parent = UNIVERSE
         if frame.type == pin.FrameType.FIXED_JOINT:
             return JointView("fixed", parent, child)
         joint = self.model.joints[frame.parentJoint]
@@ -113,7 +125,7 @@ class Pinocchio(CheckedEngine):
                 master, factor, shift = self._mimics[master]
                 multiplier, offset = multiplier * factor, offset + multiplier * shift
             if master not in q_of:
-                what = f"its joint {name!r} has no coordinate among {', '.join(q_of) or 'none'}"
+                what = f"Pinocchio's joint {name!r} has no coordinate among {', '.join(q_of) or 'none'}"
                 raise EngineError("pinocchio-coordinates", what, where=self._robot.name)
             kind = _kind(joint)
             driven.append(_Driven(joint.idx_q, joint.nq, q_of[master], multiplier, offset, kind))
@@ -125,7 +137,7 @@ class Pinocchio(CheckedEngine):
         if self._robot.floating_base and name == UNIVERSE:
             return 0
         if not self.model.existFrame(name, pin.FrameType.BODY):
-            raise EngineError("pinocchio-frames", f"it has no link {name!r}", where=self._robot.name)
+            raise EngineError("pinocchio-frames", f"Pinocchio's model has no link {name!r}", where=self._robot.name)
         return int(self.model.getFrameId(name, pin.FrameType.BODY))
 
     def _model_q(self, q: FloatArray) -> FloatArray:
@@ -151,18 +163,17 @@ class Pinocchio(CheckedEngine):
 
     def _poses(self, q: FloatArray, frame: str) -> FloatArray:
         out = np.empty((len(q), 4, 4))
-        index = self._frames[frame]
+        model, data, index = self.model, self._data, self._frames[frame]
         for i, x in enumerate(self._model_q(q)):
-            pin.forwardKinematics(self.model, self._data, x)
-            out[i] = pin.updateFramePlacement(self.model, self._data, index).homogeneous
+            pin.forwardKinematics(model, data, x)
+            out[i] = pin.updateFramePlacement(model, data, index).homogeneous
         return out
 
     def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         out = np.empty((len(q), 6, self.model.nv))
-        index, reference = self._frames[frame], _REFERENCE[kind]
+        model, data, index, reference = self.model, self._data, self._frames[frame], _REFERENCE[kind]
         for i, x in enumerate(self._model_q(q)):
-            J = pin.computeFrameJacobian(self.model, self._data, x, index, reference)
-            out[i] = J.reshape(6, self.model.nv)
+            out[i] = pin.computeFrameJacobian(model, data, x, index, reference).reshape(6, model.nv)
         return self._folded(out)
 
     def _derivatives(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
@@ -170,17 +181,17 @@ class Pinocchio(CheckedEngine):
 
     def _velocities(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         out = np.empty((len(q), 6))
-        index, reference = self._frames[frame], _REFERENCE[kind]
+        model, data, index, reference = self.model, self._data, self._frames[frame], _REFERENCE[kind]
         for i, (x, rates) in enumerate(zip(self._model_q(q), qd @ self._fold.T, strict=True)):
-            pin.forwardKinematics(self.model, self._data, x, rates)
-            out[i] = pin.getFrameVelocity(self.model, self._data, index, reference).vector
+            pin.forwardKinematics(model, data, x, rates)
+            out[i] = pin.getFrameVelocity(model, data, index, reference).vector
         return out
 
     def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
         """Everything about ``frames`` at a flat batch, with one pass of Pinocchio each; see the base class."""
-        q, qd, _ = self._motion(q, qd)
+        q, qd, names = self._asked(q, qd, frames)
         model, data = self.model, self._data
-        indices = [self._frames[self._robot.frame(name)] for name in frames]
+        indices = [self._frames[name] for name in names]
         shape = (len(q), len(indices), 6, model.nv)
         poses = np.empty((len(q), len(indices), 4, 4))
         jacobians = {kind: np.zeros(shape) for kind in KINDS}
@@ -257,6 +268,7 @@ def _build(robot: Robot) -> Any:
         except (RuntimeError, ValueError, IndexError) as error:
             said.seek(0)
             words = " ".join(f"{said.read().decode(errors='replace')} {error}".split())
+            words = re.sub(r" at line \d+ in \S+", "", words)  # of the sources that its wheel was built from
             what = f"Pinocchio refuses the file: {words}"
             raise EngineError("pinocchio-refuses", what, where=robot.description.file) from None
 

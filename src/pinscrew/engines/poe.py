@@ -79,8 +79,7 @@ class PoE(CheckedEngine):
 
     def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
         """Everything about ``frames`` at a flat batch, sharing the way down the tree; see the base class."""
-        q, qd, _ = self._motion(q, qd)
-        names = [self._robot.frame(frame) for frame in frames]
+        q, qd, names = self._asked(q, qd, frames)
         shape = (len(q), len(names), 6, self._robot.nv)
         answers = Answers(
             np.empty((len(q), len(names), 4, 4)),
