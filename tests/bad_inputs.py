@@ -59,6 +59,7 @@ def data(content: Content) -> bytes:
 
 LINKS: Final = '<link name="a"/>\n<link name="b"/>'
 LIMIT: Final = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+Z: Final = '<axis xyz="0 0 1"/>'
 ENDS: Final = '<parent link="a"/><child link="b"/>'
 JOINT_LINE: Final = 4
 
@@ -113,7 +114,6 @@ FILES: Final = [
     Case("NUL by number", plain(name="j&#0;"), "not-xml", ("invalid character number",), JOINT_LINE),
     Case("escape by number", plain(name="j&#27;[31m"), "not-xml", ("invalid character number",), JOINT_LINE),
     Case("control character", plain(name="j\x07"), "not-xml", ("invalid token",), JOINT_LINE),
-    Case("two marks", b"\xef\xbb\xbf" * 2 + plain().encode(), "not-xml", ("not well-formed",), 1),
     Case("21 MB", lambda: plain() + " " * (BIG + 1), "too-large", ("larger than 20 MB",)),
     Case("21 MB of noise", lambda: b"\xff" * (BIG + 1), "too-large", ("larger than 20 MB",)),
 ]
@@ -123,7 +123,7 @@ FILES: Final = [
 LAUGHS: Final = "".join(f'<!ENTITY l{i + 1} "{f"&l{i};" * 10}">' for i in range(9))
 
 MARKUP: Final = [
-    Case("truncated", plain()[:-30], "not-xml", ("no element found",), 5),
+    Case("truncated", plain()[:-10], "not-xml", ("no element found",), 4),
     Case("truncated in a tag", plain()[:60], "not-xml", ("unclosed token",)),
     Case("crossed tags", "<robot name='r'><link name='a'></robot></link>", "not-xml", ("mismatched tag",), 1),
     Case("two roots of the document", plain() + plain(), "not-xml", ("junk after document element",), 6),
@@ -147,9 +147,9 @@ MARKUP: Final = [
     ),
     Case("external DTD", '<!DOCTYPE robot SYSTEM "http://127.0.0.1:9/x.dtd">' + plain(), "doctype", ("DOCTYPE",)),
     Case("parameter entity", '<!DOCTYPE r [<!ENTITY % p SYSTEM "/etc/hosts">%p;]>' + plain(), "doctype", ("DOCTYPE",)),
-    Case("nested 10⁵ deep", lambda: robot("<x>" * 100_000 + "</x>" * 100_000 + joint()), "pinocchio-refuses",
+    Case("nested 50 000 deep", lambda: robot("<x>" * 50_000 + "</x>" * 50_000 + joint()), "pinocchio-refuses",
          ("Pinocchio refuses the file", "too deep"), error="EngineError"),
-    Case("nested 10⁶ deep", lambda: "<x>" * 1_000_000 + "</x>" * 1_000_000, "too-large", ("250000 elements",), 1),
+    Case("nested 300 000 deep", lambda: "<x>" * 300_000 + "</x>" * 300_000, "too-large", ("250000 elements",), 1),
     Case("five million elements", lambda: "<r>" + "<a/>" * 5_000_000 + "</r>", "too-large", ("250000 elements",), 1),
     Case("10⁵ attributes", lambda: robot("<x " + " ".join(f"a{i}=''" for i in range(10**5)) + "/>"), "too-large",
          ("more than 1000 attributes of an element",), JOINT_LINE),
@@ -244,7 +244,7 @@ TREE: Final = [
 
 NOT_NUMBERS: Final = (
     "1_0", "١", "１", "१", "1,5", "0x1p3", "0x10", "inf", "-inf", "Infinity", "nan", "NaN", "-nan", "1e999", "-1e999",
-    "1e", "e5", ".", "+", "--1", "+-1", "1d3", "1.f", "1/2", "∞", "½", "²", "1e5.5", "1..2", "${x}", "$(arg x)",
+    "1e", "e5", ".", "+", "--1", "+-1", "1d3", "1.f", "1/2", "∞", "½", "²", "1e5.5", "1..2", "${x}",
     "true", "None", "pi", "1e+", "1-", "−1", "0b1", "1\u200b", "\ufeff1", "1j", "'1'",
 )  # fmt: skip
 COUNTS: Final = {
@@ -352,23 +352,38 @@ PINOCCHIO: Final = [
     *(
         Case(name, plain(inner), "pinocchio-refuses", ("Pinocchio refuses the file",), error="EngineError")
         for name, inner in {
-            "limit with a space": LIMIT.replace("-1", " -1"),
+            "limit with a space": LIMIT.replace("-1", "-1 "),
             "numbers on lines of their own": f'{LIMIT}<origin xyz="1\n2\n3"/>',
         }.items()
     ),
-    Case("a mass of none", robot(joint(), '<link name="a"/><link name="b"><inertial><mass/></inertial></link>'),
-         "pinocchio-refuses", ("Pinocchio refuses the file", "mass"), error="EngineError"),
+    *(
+        Case(name, text, "pinocchio-refuses", ("Pinocchio refuses the file", words), error="EngineError")
+        for name, text, words in (
+            ("version 2", robot(joint(), attributes=' name="r" version="2.0"'), "versions from 1.0"),
+            ("version of words", robot(joint(), attributes=' name="r" version="x"'), "should be in the form"),
+            ("damping of words", plain(f'{LIMIT}<dynamics damping="x"/>'), "damping value (x)"),
+            ("safety without numbers", plain(f"{LIMIT}<safety_controller/>"), "k_velocity"),
+            ("limit of a fixed joint", plain('<limit lower="x"/>', kind="fixed"), "lower value (x)"),
+            ("limit of a planar joint", plain(f'{Z}<limit upper="x"/>', kind="planar"), "upper value (x)"),
+            ("limit of a floating joint", plain('<limit lower="x"/>', kind="floating"), "lower value (x)"),
+            ("processing instruction inside", robot(f"<?a b?>{joint()}"), "PARSING_DECLARATION"),
+            ("processing instruction at the end", plain() + "<?a b?>", "PARSING_DECLARATION"),
+            ("nested 510 deep", robot("<x>" * 510 + "</x>" * 510 + joint()), "too deep"),
+        )
+    ),
+    Case("CRLF in a link", robot(joint(ends='<parent link="a"/><child link="b\r\nc"/>'),
+         '<link name="a"/><link name="b\r\nc"/>'), "pinocchio-frames", ("no link 'b c'",), error="EngineError"),
     Case("line break in a name", plain(name="a\nb"), "pinocchio-coordinates", ("'a\\nb'",), error="EngineError"),
     Case("line break in a link", robot(joint(ends='<parent link="a"/><child link="b\nc"/>'),
          '<link name="a"/><link name="b\nc"/>'), "pinocchio-frames", ("'b c'",), error="EngineError"),
     Case("1001 joints in a chain", lambda: urdfs.chain(1001, "fixed"), "pinocchio-size",
          ("1001 joints in a chain", "PoE"), error="UnsupportedError"),
     Case("201 coordinates", lambda: urdfs.chain(201), "pinocchio-size", ("201 velocities",), error="UnsupportedError"),
-    Case("10⁴ joints", lambda: urdfs.chain(10_000, "continuous"), "pinocchio-size", ("10000",),
+    Case("3000 joints", lambda: urdfs.chain(3000, "continuous"), "pinocchio-size", ("3000 velocities",),
          error="UnsupportedError"),
-    Case("2000 mimics of mimics", lambda: urdfs.robot(
-        *(urdfs.joint(f"j{i}", "continuous", f"l{i}", f"l{i + 1}", mimic=(f"j{i + 1}", 1.0, 0.0) if i < 1999 else None)
-          for i in range(2000)), links=" ".join(f"l{i}" for i in range(2001))), "pinocchio-size", ("2000",),
+    Case("1000 mimics of mimics", lambda: urdfs.robot(
+        *(urdfs.joint(f"j{i}", "continuous", f"l{i}", f"l{i + 1}", mimic=(f"j{i + 1}", 1.0, 0.0) if i < 999 else None)
+          for i in range(1000)), links=" ".join(f"l{i}" for i in range(1001))), "pinocchio-size", ("1000",),
          error="UnsupportedError"),
 ]  # fmt: skip
 
@@ -407,7 +422,8 @@ ACCEPTED: Final = [
     Case("unknown elements", robot("<gazebo><link/><joint/></gazebo><transmission/>" + joint()), "", links=2),
     Case("unknown attributes", plain(attributes=' id="7"').replace("<limit", '<limit soft="x"'), "", links=2),
     Case("a capsule", robot(joint(), f'{LINKS[:-2]}><capsule_x/><collision_x/></link>'), "", links=2),
-    Case("processing instructions", "<?a b?>" + plain() + "<?c?>", "", links=2),
+    Case("processing instruction", "<?a b?>" + plain(), "", links=2),
+    Case("two byte order marks", b"\xef\xbb\xbf" * 2 + plain().encode(), "", links=2),
     Case("CDATA", robot("<![CDATA[<link name='z'/>]]>" + joint()), "", links=2),
     Case("comments", robot("<!-- <link name='z'/> -->" + joint()), "", links=2),
     Case("nested 400 deep", robot("<x>" * 400 + "</x>" * 400 + joint()), "", links=2),
@@ -427,4 +443,9 @@ ACCEPTED: Final = [
     Case("mimic on a fixed joint", mimics("", 'joint="nobody"', "", kinds=("revolute", "fixed", "revolute")),
          "mimic-fixed", ("joint 'j1'", "ignored"), links=4),
     Case("fixed joint with a bad axis", plain('<axis xyz="x"/>', kind="fixed"), "", links=2),
+    Case("fixed joint with two axes", plain('<axis xyz="1 2"/><axis/>', kind="fixed"), "", links=2),
+    Case("floating joint with a bad axis", plain('<axis xyz="x y"/>', kind="floating"), "", links=2),
+    Case("planar joint with reversed limits", plain(Z + LIMIT.replace("-1", "2"), kind="planar"), "", links=2),
+    *(Case(f"link named {name}", child_named(name), "", links=2) for name in ("root_joint", "world")),
+    Case("link named universe", plain().replace('"b"', '"universe"'), "", links=2),
 ]  # fmt: skip

@@ -81,7 +81,7 @@ FORBIDDEN: Final = {
     "[0]*10**9": "sequence repeated",
     "10**9*'a'": "sequence repeated",
     "('a'*10**5)*10**5": "sequence repeated",
-    "(2**4000*2**4000)*(2**4000*2**4000)": "product of more than 4096 bits",
+    "((2**2000*2**2000)*(2**2000*2**2000))*2": "product of more than 4096 bits",
     "'%1000000000d' % 1": "a format with a width",
     "'%*d' % (10**9, 1)": "a format with a width",
     "'%.1000000000f' % 1": "a format with a width",
@@ -130,7 +130,7 @@ FAILING: Final = {
     "(" * 4000 + ")" * 4000: "too many nested parentheses",
     "xacro.fatal('no \\x1b[2J\\n\\x07 more')": "no \\x1b[2J\\n\\x07 more",
     "xacro.fatal('x'*100000)": "xxx … xxx",
-    "xacro.tokenize('a', ']a(')": "unterminated",
+    "xacro.tokenize('a', 'z-a')": "bad character range",
 }
 ENDLESS: Final = (
     "[1 for i in range(10**5) for j in range(10**5)]",
@@ -204,7 +204,7 @@ MACROS: Final = [
          + "".join(f'<xacro:macro name="m{i + 1}">{f"<xacro:m{i}/>" * 3}</xacro:macro>' for i in range(15))
          + "<xacro:m15/>", "xacro-limit", LIMIT_WORDS, seconds=1),
     case("2³⁰ letters", "".join(f'<xacro:property name="p{i + 1}" value="${{p{i}}}${{p{i}}}"/>' for i in range(30))
-         + '<xacro:property name="p0" value="x"/><xacro:if value="${p30}"/>', "xacro-limit"),
+         + '<xacro:property name="p0" value="x"/><xacro:if value="${p30}"/>', "xacro-limit", seconds=2),
     case("25 MB of links", "".join(f'<xacro:property name="p{i + 1}" value="${{p{i}}}${{p{i}}}"/>' for i in range(24))
          + '<xacro:property name="p0" value="x"/><link name="${p24}${p23}"/>', "too-large", "its expansion is larger"),
     case("catastrophic parameters", f'<xacro:macro name="m" params="a:={"x" * 60}&apos;"/>', "xacro-limit",
@@ -260,7 +260,8 @@ OTHERS: Final = [
     include("include of a link outside", "link.xacro", "outside", *OUTSIDE,
             files={"link.xacro": "-> ../secret.xacro", "../secret.xacro": "<robot/>"}),
     include("include in a linked folder", "folder/passwd", "outside", *OUTSIDE, files={"folder": "-> /etc"}),
-    include("include of a link in a circle", "link.xacro", "", "link.xacro", files={"link.xacro": "-> link.xacro"}),
+    include("include of a link in a circle", "link.xacro", "unreadable", "link.xacro",
+            files={"link.xacro": "-> link.xacro"}),
     include("include by a wild card", "/etc/host*", "outside", *OUTSIDE),
     include("include by a wild card above", "../*.xacro", "outside", *OUTSIDE, files={"../secret.xacro": "<robot/>"}),
     include("include of the process", "/proc/self/environ", "outside", *OUTSIDE),

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -95,15 +96,14 @@ class Server:
 
 
 def _serve() -> None:
-    import rich.table  # noqa: F401 (what a child needs is imported before it is forked)
+    # What a child needs is imported before it is forked.
+    import rich.table  # noqa: F401
 
+    import pinscrew as ps
     import pinscrew.cli.fk
     import pinscrew.cli.verify
-    import pinscrew.description.expand
-    import pinscrew.engines.pinocchio
-    import pinscrew.engines.poe
-    import pinscrew.verification.run  # noqa: F401
 
+    ps.verify(ps.load("one_joint"), samples=1)
     replies = os.fdopen(os.dup(1), "w")
     for line in sys.stdin:
         json.dump(_answer(json.loads(line)), replies)
@@ -141,34 +141,37 @@ def _wait(child: int, start: float) -> tuple[int, int]:
 
 def _run(request: Mapping[str, Any], out: int, err: int) -> None:
     """The child: never returns."""
+    status = 99
+    try:
+        os.setsid()
+        os.dup2(out, 1)
+        os.dup2(err, 2)
+        sys.stdout, sys.stderr = (os.fdopen(fd, "w", encoding="utf-8") for fd in (1, 2))
+        _prepare(request)
+        sys.argv = ["pinscrew", *request["arguments"]]
+        runpy.run_module("pinscrew", run_name="__main__", alter_sys=True)
+        status = 0
+    except SystemExit as end:
+        status = int(end.code or 0)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+
+
+def _prepare(request: Mapping[str, Any]) -> None:
     from pinscrew.description import expand
 
-    os.setsid()
-    os.dup2(out, 1)
-    os.dup2(err, 2)
-    sys.stdout, sys.stderr = (os.fdopen(fd, "w", encoding="utf-8") for fd in (1, 2))
     os.chdir(request["folder"])
     os.environ.update(request["environment"])
     if request["expansion"]:
         expand.SECONDS = request["expansion"]
+    _limit()
     if request["unprivileged"] and os.geteuid() == 0:
         os.setegid(NOBODY)
         os.seteuid(NOBODY)
-    _limit()
-    sys.argv = ["pinscrew", *request["arguments"]]
-    status = 0
-    try:
-        runpy.run_module("pinscrew", run_name="__main__", alter_sys=True)
-    except SystemExit as end:
-        status = int(end.code or 0)
-    except BaseException:
-        import traceback
-
-        traceback.print_exc()
-        status = 99
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(status)
 
 
 def _limit() -> None:

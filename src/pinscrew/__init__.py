@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pinscrew import lie
+    from pinscrew.derivation.run import derive
     from pinscrew.engines.base import Engine
     from pinscrew.engines.pinocchio import Pinocchio
     from pinscrew.engines.poe import PoE
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from pinscrew.screw import Screw
     from pinscrew.verification.report import Report
     from pinscrew.verification.run import verify
+    from pinscrew.view.meshcat import show
 
 __all__ = [
     "Engine",
@@ -38,8 +40,10 @@ __all__ = [
     "Robot",
     "Screw",
     "__version__",
+    "derive",
     "lie",
     "load",
+    "show",
     "verify",
 ]
 
@@ -55,8 +59,10 @@ _HOMES = {
     "Report": "pinscrew.verification.report",
     "Robot": "pinscrew.robot",
     "Screw": "pinscrew.screw",
+    "derive": "pinscrew.derivation.run",
     "lie": "pinscrew.lie",
     "load": "pinscrew.loading",
+    "show": "pinscrew.view.meshcat",
     "verify": "pinscrew.verification.run",
 }
 

@@ -51,6 +51,8 @@ ERRORS: Final[dict[str, str]] = {
     "outside": "A file is asked for that is outside the robot's own folder and the declared packages.",
     "remote-file": "A mesh or image is asked for that is not a local file.",
     "no-mesh": "A mesh is not where the file says.",
+    "mesh-format": "A mesh is none of STL, OBJ and COLLADA, or can't be read as what its name says.",
+    "geometry": "A visual has no geometry, one that does not exist, or a negative or missing size.",
     # Names
     "unknown-robot": "No bundled robot, file or URDF of example-robot-data has this name.",
     "unknown-frame": "The robot has no link of this name.",
@@ -68,6 +70,14 @@ ERRORS: Final[dict[str, str]] = {
     "samples": "A number of samples is negative.",
     "seed": "A seed is negative.",
     "tolerance": "A tolerance is not positive.",
+    "draw": "Something is to be drawn that does not exist.",
+    "fps": "A number of pictures per second is not within 0 to 240.",
+    "derive-option": "An option of a derivation has a value that does not exist or is out of range.",
+    "derive-part": "A derivation has no part of this letter or key.",
+    "derive-size": "More than 8 moving joints lead to a frame: too many for closed forms to be of use.",
+    "derive-joint": "A floating or planar joint leads to a frame, and closed forms are asked for.",
+    "symbol-collision": "A symbol for a length has the name of another, of a joint's value, or of a sine or cosine.",
+    "no-errata": "No printed coursework belongs to this robot.",
     "unwritable": "An output file can't be written.",
     # Lie groups and screws
     "not-a-rotation": "A matrix is not a rotation.",
@@ -85,12 +95,17 @@ ERRORS: Final[dict[str, str]] = {
     "pinocchio-size": "The robot is too large for Pinocchio; the PoE engine takes it.",
     "pinocchio-frames": "Pinocchio's model lacks a link that the description has.",
     "pinocchio-coordinates": "Pinocchio's model has a joint that no coordinate drives.",
+    # Showing a robot
+    "server": "The server of a view does not start, or has stopped.",
+    "no-browser": "A picture needs Chromium or Chrome, and there is none.",
+    "browser-failed": "The browser made no picture, or not in time.",
     "missing-extra": "An optional dependency is not installed.",
 }
 
 WARNINGS: Final[dict[str, str]] = {
     "axis-normalised": "A joint's axis was not a unit vector, and was normalised.",
     "limit-zero": "A limit lacks `lower` or `upper`, which URDF takes as 0.",
+    "no-mesh": "Meshes are not where the file says; their links are drawn as frames.",
     "mimic-fixed": "A fixed joint has a `<mimic>`, which was ignored.",
     "xacro": "xacro has something to say about the file.",
 }

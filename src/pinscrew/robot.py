@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final, Literal
 
 import numpy as np
 
-from pinscrew.description.model import Description, Joint
+from pinscrew.description.model import Description, Joint, Rebuilt
 from pinscrew.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
 from pinscrew.lie import se3
 from pinscrew.mechanism import Mechanism, derive
@@ -23,7 +24,7 @@ FLOATING_JOINT: Final = "root_joint"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Robot:
+class Robot(Rebuilt):
     """A robot at zero, derived from its description alone. Make one with `pinscrew.load` or `from_description`.
 
     Coordinates ``q`` stand in the order of `joint_names`, which is tree order: parents before children, depth
@@ -73,6 +74,12 @@ class Robot:
 
     def __repr__(self) -> str:
         return f"<Robot {self.name!r}: {self.nq} coordinates, {len(self.frame_names)} frames, base {self.base!r}>"
+
+    def _repr_html_(self) -> str:
+        """The robot to look at, for Jupyter: see `pinscrew.show`."""
+        # Looks are layer 5 and import this module; a notebook asks the object itself, so they are found by name here.
+        html: str = importlib.import_module("pinscrew.view.notebook").html(self)
+        return html
 
     @property
     def base(self) -> str:

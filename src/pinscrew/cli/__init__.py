@@ -19,10 +19,12 @@ __all__ = ["command", "main"]
 
 _COMMANDS: Final = {
     "completion": "pinscrew.cli.completion",
+    "derive": "pinscrew.cli.derive",
     "fk": "pinscrew.cli.fk",
     "jacobian": "pinscrew.cli.jacobian",
     "list": "pinscrew.cli.list_robots",
     "screws": "pinscrew.cli.screws",
+    "show": "pinscrew.cli.show",
     "verify": "pinscrew.cli.verify",
 }
 

@@ -82,7 +82,8 @@ class Packages:
 
     def roots(self) -> tuple[Path, ...]:
         """The folders below which files may be read."""
-        roots = [self.file.resolve().parent, *self.declared.values(), *_paths("ROS_PACKAGE_PATH")]
+        own_folders = self.file.parent, self.file.resolve().parent  # two where the file is a link
+        roots = [*own_folders, *self.declared.values(), *_paths("ROS_PACKAGE_PATH")]
         roots += [prefix / "share" for prefix in _paths("AMENT_PREFIX_PATH")]
         own = self._own_package()
         if own is not None:

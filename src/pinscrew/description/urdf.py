@@ -29,6 +29,12 @@ _KINEMATIC: Final[Mapping[str, frozenset[str]]] = {
     "mimic": frozenset(("joint", "multiplier", "offset")),
 }
 """The elements of a joint, and their attributes, that kinematics depends on."""
+_WITHOUT: Final[Mapping[str, tuple[str, ...]]] = {
+    "axis": ("fixed", "floating"),
+    "limit": ("fixed", "floating", "planar"),
+    "mimic": ("fixed",),
+}
+"""The types of joint that take no notice of an element, which then was not checked."""
 
 
 def parse(text: str, file: str | Path, arguments: Mapping[str, str] | None = None) -> Description:
@@ -58,8 +64,8 @@ def parse(text: str, file: str | Path, arguments: Mapping[str, str] | None = Non
 def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
     """What yourdfpy reads of links and joints.
 
-    It is given these alone: it refuses geometry that it does not know, and reads no link at all where an
-    ``xmlns`` is declared.
+    It is given these alone: it refuses geometry that it does not know, reads no link at all where an ``xmlns`` is
+    declared, and fails on the axis of a fixed joint if that is none.
     """
     import yourdfpy  # here, since it takes half a second that no error should wait for
 
@@ -67,9 +73,9 @@ def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
     for link in checked.links:
         ET.SubElement(robot, "link", name=link)
     for joint in checked.joints:
-        copy = _copy(joint, robot)
+        copy, kind = _copy(joint, robot), joint.attributes["type"]
         for child in joint.children:
-            if child.tag in _KINEMATIC:
+            if child.tag in _KINEMATIC and kind not in _WITHOUT.get(child.tag, ()):
                 _copy(child, copy)
     stream = io.BytesIO(ET.tostring(robot, encoding="utf-8"))
     return yourdfpy.URDF.load(stream, load_meshes=False, build_scene_graph=False).robot

@@ -1,0 +1,159 @@
+"""``pinscrew derive``: the worked closed forms of a robot, proved."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from pinscrew.cli import arguments, output
+from pinscrew.errors import MissingExtraError
+
+if TYPE_CHECKING:
+    from pinscrew.derivation.derivation import Derivation
+    from pinscrew.derivation.proof import Proof
+
+__all__ = ["command"]
+
+
+def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
+    found = {}
+    for value in values:
+        name, equals, text = value.partition("=")
+        if not equals or not name:
+            raise click.BadParameter(f"{value!r} is not NAME=LENGTH")
+        try:
+            found[name] = float(text)
+        except ValueError:
+            raise click.BadParameter(f"{text!r} is not a number") from None
+    return found
+
+
+@click.command(name="derive")
+@arguments.robot_argument()
+@arguments.tip_option
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["markdown", "latex", "html", "notebook"]),
+    default="markdown",
+    show_default=True,
+    help="How to write the report.",
+)
+@click.option("-o", "--output", "target", type=click.Path(dir_okay=False, path_type=Path), help="Write to this file.")
+@click.option(
+    "--part",
+    "parts",
+    multiple=True,
+    metavar="PART",
+    help="Only this section, by letter (d) or key (pose); may be repeated. Part n, singularities, is shown only so.",
+)
+@click.option(
+    "--convention",
+    type=click.Choice(["mls", "lynch-park"]),
+    default="mls",
+    show_default=True,
+    help="Names, equations and order of twists of Murray-Li-Sastry or of Lynch-Park.",
+)
+@click.option(
+    "--joints",
+    "names",
+    type=click.Choice(["theta", "d", "urdf"]),
+    default="theta",
+    show_default=True,
+    help="Call all joint values theta1, theta2, …, those of sliding joints d3, or as the file does.",
+)
+@click.option("--symbols", is_flag=True, help="Name the distinct lengths of a file without arguments l1, l2, …")
+@click.option(
+    "--symbol", "named", multiple=True, metavar="NAME=LENGTH", callback=_lengths, help="Name this length (m)."
+)
+@click.option("--snap", type=float, help="Largest change (rad) that makes an angle exact; 0 for none.")
+@click.option(
+    "--code", "language", type=click.Choice(["python", "c", "matlab", "julia"]), help="Write functions instead."
+)
+@click.option(
+    "--kind",
+    type=click.Choice(["spatial", "body", "hybrid"]),
+    default="body",
+    show_default=True,
+    help="Of the Jacobian in --code.",
+)
+@click.option("--errata", is_flag=True, help="Show the mistakes of the printed coursework instead, and check them.")
+@click.option("--samples", default=100, show_default=True, type=click.IntRange(1), help="Of the numerical proof.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the numerical proof.")
+def command(words: tuple[str, ...], form: str, target: Path | None, errata: bool, **options: Any) -> None:
+    """Derive a frame's pose, velocities and Jacobians in closed form, step by step.
+
+    Everything is exact and in symbols, and proved at the end: exit status 1 if it differs from either engine.
+
+    \b
+      pinscrew derive spherical
+      pinscrew derive scara --format html -o scara.html
+      pinscrew derive planar_rrr --part i --convention lynch-park
+      pinscrew derive path/to/arm.urdf --symbols --code c --kind hybrid
+    """
+    try:
+        import sympy  # noqa: F401 (to say what is missing before anything is done)
+    except ImportError:
+        raise MissingExtraError("sympy is not installed", "derive") from None
+    text, ok = _errata(words, form) if errata else _report(words, form, **options)
+    if target is None:
+        click.echo(text, nl=not text.endswith("\n"))
+    else:
+        output.write_file(target, text)
+    if not ok:
+        click.echo("pinscrew: the closed forms and the engines disagree", err=True)
+        sys.exit(1)
+
+
+def _report(
+    words: tuple[str, ...],
+    form: str,
+    *,
+    tip: str | None,
+    parts: tuple[str, ...],
+    symbols: bool,
+    named: dict[str, float],
+    language: str | None,
+    kind: str,
+    samples: int,
+    seed: int,
+    snap: float | None,
+    **options: Any,
+) -> tuple[str, bool]:
+    """The text, and whether the proof holds."""
+    from pinscrew.derivation.exact import SNAP
+    from pinscrew.derivation.run import derive
+    from pinscrew.derivation.sections import wanted
+
+    one = arguments.robot(words)
+    wanted(parts, large=False)  # a wrong part is said before the work begins
+    derivation = derive(
+        one.load(),
+        tip,
+        symbols=symbols or named,
+        snap=SNAP if snap is None else snap,
+        loader=lambda change: arguments.Named(one.source, {**one.arguments, **change}, one.options).load(),
+        **options,
+    )
+    if language is not None:
+        from pinscrew.derivation.code import code
+
+        proof = derivation.prove(samples, seed)
+        return code(derivation, language, kind), proof.ok
+    return _written(derivation, derivation.prove(samples, seed), form, parts)
+
+
+def _written(derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...]) -> tuple[str, bool]:
+    from pinscrew.derivation import reports
+
+    return reports.write(reports.report(derivation, proof, parts), form), proof.ok
+
+
+def _errata(words: tuple[str, ...], form: str) -> tuple[str, bool]:
+    from pinscrew.derivation import errata, reports
+
+    report = errata.report(arguments.robot(words).load())
+    return reports.write(report, form), report.ok

@@ -1,0 +1,168 @@
+"""The joints that move a frame, as screws at zero in exact form, and the frame's home pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+import sympy as sp
+
+from pinscrew.derivation.exact import PRIMES
+from pinscrew.derivation.reading import Geometry
+from pinscrew.derivation.trig import Algebra
+
+__all__ = ["Chain", "Elements", "Moving", "Variable", "compose"]
+
+Elements: TypeAlias = npt.NDArray[Any]
+"""An array of `Element`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """The value of a joint.
+
+    Attributes:
+        joint: the joint's name.
+        label: what it has in the names of its sine and cosine: ``"1"`` for θ1.
+        symbol: the value, rad or m.
+        rate: its time derivative.
+        latex: how to typeset the value and the rate.
+    """
+
+    joint: str
+    label: str
+    symbol: sp.Symbol
+    rate: sp.Symbol
+    latex: tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """A joint that moves the frame.
+
+    Attributes:
+        variable: its value.
+        revolute: whether it turns; otherwise it slides.
+        axis: ω, or for a sliding joint its direction: unit vector in the base frame at zero, shape (3,).
+        point: q, the place of its origin in the base frame at zero (m), shape (3,).
+        twist: ξ = (v, ω), v = -ω × q; (axis, 0) for a sliding joint; shape (6,).
+        master: the variable that it follows; its own if it follows none.
+        multiplier: its value per unit of the master's, beyond what is in the home pose.
+    """
+
+    variable: Variable
+    revolute: bool
+    axis: Elements
+    point: Elements
+    twist: Elements
+    master: Variable
+    multiplier: sp.Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """All that a derivation starts from.
+
+    Attributes:
+        algebra: what the elements are made of.
+        joints: those that move the frame, from the base outwards.
+        home: M, the frame's pose at zero, shape (4, 4).
+        coordinates: the independent variables, in the order of the robot's.
+    """
+
+    algebra: Algebra
+    joints: tuple[Moving, ...]
+    home: Elements
+    coordinates: tuple[Variable, ...]
+
+
+def compose(
+    geometry: Sequence[Geometry],
+    on_path: Sequence[str],
+    variables: Mapping[str, Variable],
+    lengths: Sequence[sp.Symbol],
+    order: Sequence[str],
+) -> Chain:
+    """The chain of the joints ``on_path``.
+
+    Args:
+        geometry: of these joints and of the masters they follow.
+        on_path: names of the joints between base and frame, base first.
+        variables: of the moving joints and their masters.
+        lengths: the symbols that may occur in positions.
+        order: names of the robot's coordinates.
+    """
+    by_name = {joint.name: joint for joint in geometry}
+    path = [by_name[name] for name in on_path]
+    numbers = [x for joint in path for M in (joint.R, joint.p, joint.axis) for x in M] + [j.offset for j in path]
+    exact = not any(sp.sympify(x).has(sp.Float) for x in numbers)
+    moving = [joint for joint in path if joint.type != "fixed"]
+    sliding = [variables[joint.name].symbol for joint in moving if joint.type == "prismatic"]
+    symbols = (*lengths, *sliding, *(variables[joint.name].rate for joint in moving))
+    plain = Algebra((), symbols, _primes(numbers), exact=exact)
+    poses, R, p = [], _array(plain, sp.eye(3)), _array(plain, sp.zeros(3, 1))[:, 0]
+    for joint in path:
+        p = p + R @ _array(plain, joint.p)[:, 0]
+        R = R @ _array(plain, joint.R)
+        axis = R @ _array(plain, joint.axis)[:, 0]
+        poses.append((axis, p))
+        if joint.type == "prismatic":
+            p = p + axis * plain.constant(joint.offset)
+        elif joint.type != "fixed" and joint.offset:
+            R = R @ _array(plain, _about(joint.axis, joint.offset))
+    at_zero = {joint.name: pose for joint, pose in zip(path, poses, strict=True)}
+    groups = _groups([(variables[j.name].symbol, at_zero[j.name][0]) for j in moving if j.type != "prismatic"])
+    algebra = Algebra(groups, symbols, _primes(numbers), exact=exact)
+    lift = np.frompyfunc(lambda e: algebra.element({algebra.one: poly for poly in e.terms.values()}), 1, 1)
+    found = []
+    for joint in moving:
+        axis, point = (lift(x) for x in at_zero[joint.name])
+        zero = np.array([algebra.constant(0)] * 3, dtype=object)
+        revolute = joint.type != "prismatic"
+        twist = np.concatenate([-cross(axis, point), axis] if revolute else [axis, zero])
+        multiplier, master = joint.multiplier, variables[joint.master]
+        found.append(Moving(variables[joint.name], revolute, axis, point, twist, master, multiplier))
+    home = np.full((4, 4), algebra.constant(0), dtype=object)
+    home[:3, :3], home[:3, 3], home[3, 3] = lift(R), lift(p), algebra.constant(1)
+    masters = {joint.master for joint in moving}
+    return Chain(algebra, tuple(found), home, tuple(variables[name] for name in order if name in masters))
+
+
+def _primes(numbers: Sequence[sp.Expr]) -> list[int]:
+    """The primes whose roots occur."""
+    roots = {atom.base for x in numbers for atom in sp.sympify(x).atoms(sp.Pow) if atom.exp == sp.Rational(1, 2)}
+    found = {p for root in roots if root.is_Integer for p in sp.primefactors(root)}
+    return [p for p in PRIMES if p in found]
+
+
+def _array(algebra: Algebra, matrix: sp.Matrix) -> Elements:
+    entries = [algebra.constant(x) for x in matrix]
+    return np.array(entries, dtype=object).reshape(matrix.shape)
+
+
+def _about(axis: sp.Matrix, angle: sp.Expr) -> sp.Matrix:
+    """The rotation about a unit vector: Rodrigues' formula, MLS eq. 2.14."""
+    x, y, z = axis
+    hat = sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return sp.eye(3) + sp.sin(angle) * hat + (1 - sp.cos(angle)) * hat * hat
+
+
+def _groups(turning: Sequence[tuple[sp.Symbol, Elements]]) -> list[list[sp.Symbol]]:
+    """The angles of successive joints with parallel axes together; sliding joints between them do not count."""
+    groups: list[list[sp.Symbol]] = []
+    last: Elements | None = None
+    for symbol, axis in turning:
+        if last is not None and not any(cross(last, axis)):
+            groups[-1].append(symbol)
+        else:
+            groups.append([symbol])
+        last = axis
+    return groups
+
+
+def cross(a: Elements, b: Elements) -> Elements:
+    """Cross product of two vectors of elements."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], dtype=object)

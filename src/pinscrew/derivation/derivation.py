@@ -1,0 +1,297 @@
+"""What `derive` gives: every closed form as a sympy expression, and how to get on with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
+
+import numpy as np
+import sympy as sp
+
+from pinscrew.derivation import solution
+from pinscrew.derivation.atoms import Atoms
+from pinscrew.derivation.chain import Chain, Elements, Variable
+from pinscrew.derivation.exact import Snapped
+from pinscrew.derivation.factoring import Factoring
+from pinscrew.derivation.reading import Geometry
+from pinscrew.robot import Robot
+from pinscrew.typing import KindLike, jacobian_kind
+
+if TYPE_CHECKING:
+    from pinscrew.derivation.proof import Proof
+    from pinscrew.derivation.singularities import Singularities
+
+__all__ = ["Convention", "Derivation", "Screw"]
+
+LARGE: Final = 4
+"""Joints above which an arm is `Derivation.large`."""
+MANY: Final = 100
+"""Terms of the pose above which it is, too: axes at odd angles."""
+
+Convention: TypeAlias = Literal["mls", "lynch-park"]
+
+
+@dataclass(frozen=True, slots=True)
+class Screw:
+    """A joint's screw at zero, in the base frame.
+
+    Attributes:
+        joint: the joint's name.
+        revolute: whether it turns; otherwise it slides.
+        omega: ω, unit vector, shape (3, 1); zero if it slides.
+        q: a point of the axis (m), shape (3, 1).
+        v: -ω × q, or the direction in which it slides; shape (3, 1).
+        value: its value (rad or m) in terms of the coordinates.
+    """
+
+    joint: str
+    revolute: bool
+    omega: sp.ImmutableMatrix
+    q: sp.ImmutableMatrix
+    v: sp.ImmutableMatrix
+    value: sp.Expr
+
+    @property
+    def twist(self) -> sp.ImmutableMatrix:
+        """ξ = (v, ω), shape (6, 1)."""
+        return sp.ImmutableMatrix.vstack(self.v, self.omega)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Derivation:
+    """Closed forms of the kinematics of one frame. Make one with `derive`.
+
+    All matrices are sympy's, in symbols for lengths, for the joints' values (``theta1``) and rates (``dtheta1``),
+    and for sines and cosines (``c1``, ``s12``): `explicit` puts cos(θ1) and sin(θ1 + θ2) for these. Twists and rows
+    of Jacobians are (v, ω), in m and rad. Each is formed when it is first asked for.
+
+    Attributes:
+        robot: the robot.
+        tip: the frame whose motion this is.
+        lengths: the symbols of lengths and other arguments, and their values as given.
+        remarks: in words: which arguments stay numbers, and why.
+        snapped: numbers of the file that were replaced by exact ones.
+        convention: whose names and order of twists reports use; matrices here are always (v, ω).
+        chain: the joints in normal form.
+        geometry: the joints as they were read.
+    """
+
+    robot: Robot
+    tip: str
+    lengths: Mapping[sp.Symbol, sp.Expr]
+    remarks: tuple[str, ...]
+    snapped: tuple[Snapped, ...]
+    convention: Convention
+    chain: Chain
+    geometry: tuple[Geometry, ...]
+    variables: tuple[Variable, ...]
+    solution: solution.Solution = field(init=False)
+    atoms: Atoms = field(init=False)
+    _factoring: Factoring = field(init=False)
+
+    def __post_init__(self) -> None:
+        labels = {variable.symbol: variable.label for variable in self.variables}
+        object.__setattr__(self, "solution", solution.Solution(self.chain))
+        object.__setattr__(self, "atoms", Atoms(self.chain.algebra, labels))
+        object.__setattr__(self, "_factoring", Factoring(self.atoms))
+
+    def __repr__(self) -> str:
+        names = ", ".join(map(str, self.lengths)) or "none"
+        return f"<Derivation of {self.tip!r} of {self.robot.name!r}: {len(self.screws)} joints, lengths: {names}>"
+
+    @property
+    def coordinates(self) -> tuple[Variable, ...]:
+        """The coordinates that move the frame, one for each column of the Jacobians, in the robot's order."""
+        return self.chain.coordinates
+
+    @property
+    def exact(self) -> bool:
+        """Whether every number is exact; otherwise some are decimals of 30 digits."""
+        return self.chain.algebra.exact
+
+    @cached_property
+    def home(self) -> sp.ImmutableMatrix:
+        """g(0), the pose at zero, shape (4, 4)."""
+        return self.write(self.chain.home)
+
+    @cached_property
+    def screws(self) -> tuple[Screw, ...]:
+        """The joints that move the frame, from the base outwards."""
+        found = []
+        for joint in self.chain.joints:
+            omega = joint.twist[3:]
+            vectors = (self.write(x.reshape(3, 1)) for x in (omega, joint.point, joint.twist[:3]))
+            value = joint.multiplier * joint.master.symbol
+            found.append(Screw(joint.variable.joint, joint.revolute, *vectors, value))
+        return tuple(found)
+
+    @cached_property
+    def exponentials(self) -> tuple[sp.ImmutableMatrix, ...]:
+        """e^{ξ̂i θi} of each joint, of shape (4, 4)."""
+        return tuple(self.write(g) for g in self.solution.exponentials)
+
+    @cached_property
+    def partial_products(self) -> tuple[sp.ImmutableMatrix, ...]:
+        """e^{ξ̂1 θ1} … e^{ξ̂i θi}, of shape (4, 4)."""
+        return tuple(self.write(g) for g in self.solution.partial)
+
+    @cached_property
+    def pose(self) -> sp.ImmutableMatrix:
+        """g(θ), the pose in the base frame, shape (4, 4)."""
+        return self.write(self.solution.pose)
+
+    @cached_property
+    def inverse(self) -> sp.ImmutableMatrix:
+        """g⁻¹, shape (4, 4)."""
+        return self.write(self.solution.inverse)
+
+    @cached_property
+    def pose_rates(self) -> tuple[sp.ImmutableMatrix, ...]:
+        """(∂g/∂θi) θ̇i of each joint, of shape (4, 4)."""
+        return tuple(self.write(g) for g in self.solution.rates)
+
+    @cached_property
+    def pose_rate(self) -> sp.ImmutableMatrix:
+        """ġ, shape (4, 4)."""
+        return self.write(self.solution.pose_rate)
+
+    @cached_property
+    def body_hat(self) -> sp.ImmutableMatrix:
+        """V̂^b = g⁻¹ġ, shape (4, 4)."""
+        return self.write(self.solution.body_hat)
+
+    @cached_property
+    def adjoint(self) -> sp.ImmutableMatrix:
+        """Ad of g, shape (6, 6)."""
+        return self.write(solution.adjoint(self.solution.pose))
+
+    @cached_property
+    def spatial_adjoints(self) -> tuple[sp.ImmutableMatrix, ...]:
+        """Ad(e^{ξ̂1 θ1} … e^{ξ̂(i-1) θ(i-1)}) of each joint, of shape (6, 6)."""
+        return tuple(self.write(solution.adjoint(g)) for g in self.solution.before)
+
+    @cached_property
+    def body_adjoints(self) -> tuple[sp.ImmutableMatrix, ...]:
+        """Ad⁻¹(e^{ξ̂i θi} … e^{ξ̂n θn} g(0)) of each joint, of shape (6, 6)."""
+        return tuple(self.write(solution.adjoint_inverse(g)) for g in self.solution.tails)
+
+    def columns(self, kind: KindLike) -> sp.ImmutableMatrix:
+        """The Jacobian's columns for each joint that moves the frame, as if none followed another; shape (6, n)."""
+        return self._columns[jacobian_kind(kind)]
+
+    @cached_property
+    def _columns(self) -> Mapping[str, sp.ImmutableMatrix]:
+        return _Lazy(lambda kind: self.write(getattr(self.solution, kind)))
+
+    def jacobian(self, kind: KindLike) -> sp.ImmutableMatrix:
+        """A Jacobian: a column for each of `coordinates`, shape (6, m).
+
+        Where joints follow others, a coordinate's column is the sum of its joints' `columns`, each times its
+        multiplier, with the joints' values put in terms of the coordinates by `in_coordinates`.
+        """
+        return self._jacobians[jacobian_kind(kind)]
+
+    @cached_property
+    def _jacobians(self) -> Mapping[str, sp.ImmutableMatrix]:
+        return _Lazy(self._folded)
+
+    def _folded(self, kind: str) -> sp.ImmutableMatrix:
+        columns = self.columns(kind)
+        if not self.follows:
+            return columns
+        found = sp.zeros(6, len(self.coordinates))
+        order = [variable.symbol for variable in self.coordinates]
+        for i, joint in enumerate(self.chain.joints):
+            k = order.index(joint.master.symbol)
+            found[:, k] += joint.multiplier * columns[:, i]
+        return sp.ImmutableMatrix(found)
+
+    @cached_property
+    def body_velocity(self) -> sp.ImmutableMatrix:
+        """V^b = J^b θ̇, shape (6, 1)."""
+        return self.write(self.solution.body_velocity.reshape(6, 1))
+
+    @cached_property
+    def spatial_velocity(self) -> sp.ImmutableMatrix:
+        """V^s = J^s θ̇, shape (6, 1)."""
+        return self.write(self.solution.spatial_velocity.reshape(6, 1))
+
+    @cached_property
+    def hybrid_velocity(self) -> sp.ImmutableMatrix:
+        """V^h = diag(R, R) V^b, shape (6, 1)."""
+        return self.write(self.solution.hybrid_velocity.reshape(6, 1))
+
+    @property
+    def velocities_agree(self) -> bool:
+        """Whether g⁻¹ġ is the hat of J^b θ̇, entry for entry: the two routes to V^b."""
+        return self.solution.agrees
+
+    @cached_property
+    def large(self) -> bool:
+        """Whether velocities term by term and adjoints are too long to be of use, unless they are asked for."""
+        return len(self.screws) > LARGE or sum(len(e.terms) for e in self.solution.pose.flat) > MANY
+
+    @property
+    def solution_symbols(self) -> tuple[sp.Symbol, ...]:
+        """The values of the joints that move the frame."""
+        return tuple(joint.variable.symbol for joint in self.chain.joints)
+
+    @cached_property
+    def follows(self) -> Mapping[sp.Symbol, sp.Expr]:
+        """The values of the joints that follow others, in terms of the coordinates, without their offsets."""
+        return {
+            joint.variable.symbol: joint.multiplier * joint.master.symbol
+            for joint in self.chain.joints
+            if joint.master is not joint.variable
+        }
+
+    @cached_property
+    def singularities(self) -> Singularities:
+        """Manipulability and singular configurations; see `pinscrew.derivation.singularities`."""
+        from pinscrew.derivation.singularities import singularities
+
+        return singularities(self)
+
+    def prove(self, samples: int = 100, seed: int = 0) -> Proof:
+        """The largest difference from both engines over random configurations and lengths; see `proof.prove`."""
+        from pinscrew.derivation.proof import prove
+
+        return prove(self, samples, seed)
+
+    def explicit(self, expression: Any) -> Any:
+        """An expression or matrix with cos(θ1) for c1, sin(θ1 + θ2) for s12 and so on."""
+        return expression.xreplace(self.atoms.explicit)
+
+    def in_coordinates(self, expression: Any) -> Any:
+        """An expression or matrix, explicit, with the values of joints that follow others put in."""
+        return self.explicit(expression).xreplace(dict(self.follows))
+
+    def equal(self, a: Any, b: Any) -> bool:
+        """Whether two polynomial expressions in lengths, sines and cosines are identically equal.
+
+        Both are brought to the normal form of `trig`, so the answer is exact, both ways (to 20 digits, where
+        numbers are not `exact`).
+
+        Raises:
+            TypeError: if they are no such expressions.
+        """
+        return not self.chain.algebra.read(self.explicit(sp.sympify(a) - sp.sympify(b)))
+
+    def write(self, elements: Elements) -> sp.ImmutableMatrix:
+        """A matrix in normal form as one of expressions."""
+        rows, columns = elements.shape
+        return sp.ImmutableMatrix(rows, columns, [self._factoring.expression(e) for e in np.ravel(elements)])
+
+
+class _Lazy(dict[str, sp.ImmutableMatrix]):
+    """Values made by a function of the key when they are first asked for."""
+
+    def __init__(self, make: Any) -> None:
+        super().__init__()
+        self._make = make
+
+    def __missing__(self, key: str) -> sp.ImmutableMatrix:
+        self[key] = self._make(key)
+        return self[key]

@@ -1,0 +1,147 @@
+"""Reports as Markdown, LaTeX and notebooks; `page` has HTML."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from typing import Any, Final
+
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
+from pinscrew.derivation.typeset import escape
+
+__all__ = ["to_latex", "to_markdown", "to_notebook"]
+
+_LONG: Final = 90
+"""Characters of a formula, roughly as seen, above which its parts go on lines of their own."""
+_PIECES: Final = re.compile(r"\$[^$]*\$|`[^`]*`")
+
+
+def is_long(formula: Formula) -> bool:
+    """Whether the parts of a formula are better on lines of their own."""
+    widest = sum(max((len(row) for row in part.split(r"\\")), default=0) for part in formula.parts)
+    return len(formula.parts) > 2 and widest > 2 * _LONG
+
+
+def aligned(formula: Formula) -> str:
+    """A formula in LaTeX, on several lines where it is long."""
+    if not is_long(formula):
+        return formula.latex
+    first, *rest = formula.parts
+    return rf"\begin{{aligned}} {first} &= " + r" \\ &= ".join(rest) + r" \end{aligned}"
+
+
+def to_markdown(report: Report) -> str:
+    """The report as Markdown with LaTeX between dollars, as GitHub and Jupyter read it."""
+    lines = [f"# {report.title}", ""]
+    for section in report.sections:
+        lines += [f"## {section.heading}", ""]
+        for block in section.blocks:
+            lines += [_markdown(block), ""]
+    return "\n".join(lines)
+
+
+def _markdown(block: Block) -> str:
+    if isinstance(block, Formula):
+        return f"$$\n{aligned(block)}\n$$"
+    if isinstance(block, Paragraph):
+        return block.text
+    rows = [block.head, tuple("---" for _ in block.head), *block.rows]
+    return "\n".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows)
+
+
+_PREAMBLE: Final = r"""\documentclass[11pt]{article}
+\usepackage[utf8]{inputenc}
+\usepackage{amsmath,amssymb,graphicx}
+\usepackage[a4paper,margin=22mm]{geometry}
+\DeclareUnicodeCharacter{03C9}{\ensuremath{\omega}}
+\DeclareUnicodeCharacter{03B8}{\ensuremath{\theta}}
+\DeclareUnicodeCharacter{03BE}{\ensuremath{\xi}}
+\DeclareUnicodeCharacter{0121}{\.{g}}
+\DeclareUnicodeCharacter{207B}{\ensuremath{^{-}}}
+\DeclareUnicodeCharacter{00B9}{\ensuremath{^{1}}}
+\DeclareUnicodeCharacter{00D7}{\ensuremath{\times}}
+\setlength{\parindent}{0pt}
+\setlength{\parskip}{5pt}
+\newsavebox{\formulabox}
+% A formula that is wider than the page is made to fit it.
+\newcommand{\fitted}[1]{\sbox{\formulabox}{$\displaystyle #1$}%
+  \[\ifdim\wd\formulabox>\linewidth\resizebox{\linewidth}{!}{\usebox{\formulabox}}\else\usebox{\formulabox}\fi\]}
+\begin{document}
+"""
+
+
+def to_latex(report: Report) -> str:
+    """The report as a LaTeX document that compiles by itself."""
+    lines = [_PREAMBLE + rf"\section*{{{_text(report.title)}}}"]
+    for section in report.sections:
+        lines.append(rf"\subsection*{{{_text(section.heading)}}}")
+        lines += [_latex(block) for block in section.blocks]
+    return "\n".join((*lines, r"\end{document}", ""))
+
+
+def _latex(block: Block) -> str:
+    if isinstance(block, Formula):
+        return rf"\fitted{{{aligned(block)}}}"
+    if isinstance(block, Paragraph):
+        return _text(block.text) + "\n"
+    columns = "l" * len(block.head)
+    rows = [" & ".join(map(_text, row)) + r" \\" for row in (block.head, *block.rows)]
+    rows.insert(1, r"\hline")
+    return "\n".join((r"\begin{center}", rf"\begin{{tabular}}{{{columns}}}", *rows, r"\end{tabular}", r"\end{center}"))
+
+
+def _text(text: str) -> str:
+    return split_text(text, escape, lambda math: f"${math}$", lambda code: rf"\texttt{{{escape(code)}}}")
+
+
+def split_text(text: str, plain: Callable[[str], str], math: Callable[[str], str], code: Callable[[str], str]) -> str:
+    """A paragraph's text with its plain pieces, its mathematics and its code each treated in its own way."""
+    found, end = [], 0
+    for match in _PIECES.finditer(text):
+        found.append(plain(text[end : match.start()]))
+        found.append((math if match[0].startswith("$") else code)(match[0][1:-1]))
+        end = match.end()
+    return "".join((*found, plain(text[end:])))
+
+
+def to_notebook(report: Report) -> str:
+    """The report as a Jupyter notebook: its first cell makes the derivation, its last proves it again."""
+    cells = [_cell("markdown", f"# {report.title}"), _cell("code", report.code)]
+    for section in report.sections:
+        if section.key == "proof":
+            cells += [_cell("markdown", _section(section)), _cell("code", "proof = d.prove()\nproof.ok, proof.largest")]
+        else:
+            cells.append(_cell("markdown", _section(section)))
+            cells += [_cell("code", line) for line in _SHOWN.get(section.key, ())]
+    numbered = [{"id": f"cell{i}", **cell} for i, cell in enumerate(cells)]
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    notebook = {
+        "nbformat": 4,
+        "nbformat_minor": 5,
+        "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+        "cells": numbered,
+    }
+    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
+
+
+_SHOWN: Final = {
+    "pose": ("d.pose",),
+    "body-jacobian": ('d.jacobian("body")',),
+    "spatial-jacobian": ('d.jacobian("spatial")',),
+    "velocity-check": ("d.velocities_agree",),
+}
+
+
+def _section(section: Section) -> str:
+    return "\n\n".join((f"## {section.heading}", *map(_markdown, section.blocks)))
+
+
+def _cell(kind: str, source: str) -> dict[str, Any]:
+    cell: dict[str, Any] = {"cell_type": kind, "metadata": {}, "source": source.splitlines(keepends=True)}
+    return cell | {"execution_count": None, "outputs": []} if kind == "code" else cell
+
+
+def is_table(block: Block) -> bool:
+    """Whether a block is a table."""
+    return isinstance(block, Table)

@@ -1,0 +1,89 @@
+"""A whole report: what is given, the sections, and the numerical proof."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Final
+
+from pinscrew.derivation import formats, page
+from pinscrew.derivation.blocks import Block, Paragraph, Report, Section, Table
+from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.proof import Proof
+from pinscrew.derivation.sections import given, sections
+from pinscrew.errors import InputError
+
+__all__ = ["report", "write"]
+
+
+def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extra: Sequence[Section] = ()) -> Report:
+    """The report of a derivation.
+
+    Args:
+        derivation: the closed forms.
+        proof: what the engines say of them.
+        parts: keys or letters of sections; by default those that fit the robot's size.
+        extra: further sections, before the proof.
+
+    Raises:
+        InputError: if there is no such part.
+    """
+    d = derivation
+    listed = (given(d), *sections(d, parts), *extra, _proof(proof))
+    title = f"Closed-form kinematics of {d.robot.name}"
+    return Report(title, listed, _code(d), proof.ok)
+
+
+def _proof(proof: Proof) -> Section:
+    verdict = "Everything agrees." if proof.ok else "SOMETHING DISAGREES: do not use these closed forms."
+    lengths = f", each with lengths of its own ({proof.lengths} sets)" if proof.lengths else ""
+    blocks: list[Block] = [
+        Paragraph(
+            f"The largest difference of each closed form from both engines, over {proof.samples} random "
+            f"configurations (seed {proof.seed}){lengths}, metres divided by max(1, size of the robot). {verdict}"
+        )
+    ]
+    for is_given, words in ((True, "With the file as it is:"), (False, "With random lengths and exact rotations:")):
+        found = [c for c in proof.comparisons if c.given == is_given]
+        if not found:
+            continue
+        engines = list(dict.fromkeys(c.engine for c in found))
+        rows = []
+        for what in dict.fromkeys(c.what for c in found):
+            cells = {c.engine: c for c in found if c.what == what}
+            marked = [f"{cells[e].error:.1e}" + ("" if cells[e].ok else " FAIL") for e in engines]
+            rows.append((what, *marked, f"{found[0].tolerance:.0e}"))
+        blocks += [Paragraph(words), Table(("closed form", *engines, "tolerance"), tuple(rows))]
+    if proof.symbolic is not None:
+        same = "are one expression" if proof.symbolic else "are NOT one expression"
+        blocks.append(Paragraph(f"Symbolically, $g^{{-1}}\\dot{{g}}$ and the body Jacobian times the rates {same}."))
+    return Section("", "proof", "Numerical proof", tuple(blocks))
+
+
+def _code(d: Derivation) -> str:
+    arguments = "".join(f", {name}={value!r}" for name, value in d.robot.description.arguments.items())
+    robot = d.robot.name if not arguments else d.robot.name
+    return f"import pinscrew as ps\n\nrobot = ps.load({robot!r}{arguments})\nd = ps.derive(robot, {d.tip!r})"
+
+
+def write(report: Report, form: str) -> str:
+    """A report as text.
+
+    Args:
+        report: the report.
+        form: ``"markdown"``, ``"latex"``, ``"html"`` or ``"notebook"``.
+
+    Raises:
+        InputError: if there is no such format.
+        MissingExtraError: if what HTML needs is not installed.
+    """
+    if form not in _FORMATS:
+        raise InputError("derive-option", f"format={form!r}", remedy=f"use one of {', '.join(_FORMATS)}")
+    return _FORMATS[form](report)
+
+
+_FORMATS: Final[dict[str, Callable[[Report], str]]] = {
+    "markdown": formats.to_markdown,
+    "latex": formats.to_latex,
+    "notebook": formats.to_notebook,
+    "html": page.to_html,
+}

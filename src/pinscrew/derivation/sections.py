@@ -1,0 +1,345 @@
+"""The sections of a report: each with the formula in general, the numbers put in, and the result.
+
+Letters (a) to (k) are those of the coursework that is the model of all this; (l) to (n) go on from there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Final
+
+import sympy as sp
+
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, Table
+from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.notation import NOTATIONS
+from pinscrew.derivation.typeset import Typesetter
+from pinscrew.errors import InputError
+
+__all__ = ["PARTS", "given", "sections", "wanted"]
+
+PARTS: Final = {
+    "home": "a",
+    "twists": "b",
+    "exponentials": "c",
+    "pose": "d",
+    "rate": "e",
+    "inverse": "f",
+    "velocity-matrix": "g",
+    "velocity": "h",
+    "body-jacobian": "i",
+    "velocity-check": "j",
+    "hybrid-velocity": "k",
+    "spatial-jacobian": "l",
+    "hybrid-jacobian": "m",
+    "singularities": "n",
+}
+"""The keys of sections, and their letters."""
+
+_ON_REQUEST: Final = {"singularities"}
+_SMALL_ONLY: Final = {"rate", "inverse", "velocity-matrix", "velocity", "velocity-check", "hybrid-velocity"}
+
+
+def wanted(parts: Iterable[str], *, large: bool) -> list[str]:
+    """The keys of the sections that are asked for, by key or letter; by default those that fit the robot's size.
+
+    Raises:
+        InputError: if one does not exist.
+    """
+    letters = {letter: key for key, letter in PARTS.items()}
+    asked = [letters.get(part, part) for part in parts]
+    for part in asked:
+        if part not in PARTS:
+            known = ", ".join(f"{key} ({letter})" for key, letter in PARTS.items())
+            raise InputError("derive-part", f"there is no part {part!r}", remedy=f"the parts are: {known}")
+    default = [key for key in PARTS if key not in _ON_REQUEST and not (large and key in _SMALL_ONLY)]
+    return [key for key in PARTS if key in asked] if asked else default
+
+
+def sections(derivation: Derivation, parts: Iterable[str] = ()) -> list[Section]:
+    """The sections that are asked for, in order; see `wanted`."""
+    writer = _Writer(derivation)
+    makers: dict[str, tuple[str, Callable[[], Iterable[Block]]]] = {
+        "home": ("Home pose and axes", writer.home),
+        "twists": ("Twists", writer.twists),
+        "exponentials": ("Exponentials", writer.exponentials),
+        "pose": ("Pose by the product of exponentials", writer.pose),
+        "rate": ("Rate of the pose, term by term", writer.rate),
+        "inverse": ("Inverse of the pose", writer.inverse),
+        "velocity-matrix": ("Body velocity as a matrix", writer.velocity_matrix),
+        "velocity": ("Body velocity, read off the matrix", writer.velocity),
+        "body-jacobian": ("Body Jacobian, column by column", writer.body_jacobian),
+        "velocity-check": ("Body velocity by the Jacobian", writer.velocity_check),
+        "hybrid-velocity": ("Hybrid velocity", writer.hybrid_velocity),
+        "spatial-jacobian": ("Spatial Jacobian, column by column", writer.spatial_jacobian),
+        "hybrid-jacobian": ("Hybrid Jacobian and the adjoint", writer.hybrid_jacobian),
+        "singularities": ("Manipulability and singular configurations", writer.singularities),
+    }
+    return [
+        Section(PARTS[key], key, makers[key][0], tuple(makers[key][1]()))
+        for key in wanted(parts, large=derivation.large)
+    ]
+
+
+class _Writer:
+    """Writes the sections of one derivation."""
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.d = derivation
+        self.n = NOTATIONS[derivation.convention]
+        self.set = Typesetter(derivation)
+        self.values = [self.set(joint.variable.symbol) for joint in derivation.chain.joints]
+        self.small = not derivation.large
+
+    @property
+    def numbers(self) -> range:
+        return range(1, len(self.values) + 1)
+
+    def twist(self, i: int) -> str:
+        return self.n.twist.format(i)
+
+    def exponential(self, i: int) -> str:
+        return self.n.exponential(i, self.values[i - 1])
+
+    def column(self, matrix: sp.Matrix) -> str:
+        return self.set.matrix(self.n.rows(matrix))
+
+    def result(self, *head: str, matrix: sp.Matrix, name: str) -> list[Block]:
+        """``head = matrix``, the entries one by one where it is wide."""
+        if not self.set.is_wide(matrix):
+            return [Formula((*head, self.set.matrix(matrix)))]
+        first, *entries = self.set.entries(name, matrix)
+        blocks: list[Block] = [Formula((*head, first)), Paragraph("with the entries")]
+        return blocks + [Formula(tuple(entry.split(" = ", 1))) for entry in entries]
+
+    def cite(self, topic: str) -> str:
+        book = "MLS" if self.d.convention == "mls" else "LP"
+        return f"{book}, {self.n.equations[topic]}"
+
+    def home(self) -> Iterable[Block]:
+        d, n = self.d, self.n
+        yield Paragraph(f"At zero the frame `{d.tip}` stands in `{d.robot.base}` at")
+        yield Formula((n.home, self.set.matrix(d.home)))
+        if d.screws:
+            yield Paragraph("and the joints that move it have these axes, each through a point $q$:")
+        for i, screw in enumerate(d.screws, 1):
+            if screw.revolute:
+                omega, q = self.set.matrix(screw.omega), self.set.matrix(screw.q)
+                yield Formula((rf"\omega_{{{i}}}", rf"{omega} , \quad q_{{{i}}}", q))
+            else:
+                yield Formula((rf"\omega_{{{i}}}", rf"0 , \quad v_{{{i}}}", self.set.matrix(screw.v)))
+
+    def twists(self) -> Iterable[Block]:
+        turning = (
+            r"\begin{bmatrix} \omega \\ -\omega \times q \end{bmatrix}"
+            if self.n.angular_first
+            else r"\begin{bmatrix} -\omega \times q \\ \omega \end{bmatrix}"
+        )
+        yield Paragraph(
+            f"A joint that turns about $\\omega$ through $q$ has the twist below ({self.cite('twist')}; the order is "
+            f"{self.n.order}), one that slides along $v$ has $\\omega = 0$."
+        )
+        yield Formula((self.twist(0).replace("_{0}", ""), turning))
+        for i, screw in enumerate(self.d.screws, 1):
+            head: tuple[str, ...] = ()
+            if screw.revolute:
+                product = f"-{self.set.matrix(screw.omega)} \\times {self.set.matrix(screw.q)}"
+                head = (rf"-\omega_{{{i}}} \times q_{{{i}}}", product, self.set.matrix(screw.v))
+                yield Formula(head)
+            yield Formula((self.twist(i), self.column(screw.twist)))
+        yield from self._followers()
+
+    def _followers(self) -> Iterable[Block]:
+        if not self.d.follows:
+            return
+        yield Paragraph("Joints that follow others have the values (their offsets are in the home pose)")
+        for symbol, value in self.d.follows.items():
+            yield Formula((self.set(symbol), self.set(value)))
+        for k, variable in enumerate(self.d.coordinates):
+            at_zero = {symbol: sp.Integer(0) for symbol in self.d.solution_symbols}
+            column = self.d.explicit(self.d.jacobian("spatial")[:, k]).subs(at_zero)
+            v, w = column[:3, 0], column[3:, 0]
+            text = f"At zero, a unit of ${self.set(variable.symbol)}$ is the twist"
+            if w.dot(w):
+                h = sp.simplify(w.dot(v) / w.dot(w))
+                text += f" of pitch $h = {self.set(h)}$ (m/rad)"
+            yield Paragraph(text)
+            yield Formula((self.column(column),))
+
+    def exponentials(self) -> Iterable[Block]:
+        hat = self.n.hat.format(r"\omega")
+        yield Paragraph(f"With $R$ by Rodrigues' formula ({self.cite('exponential')}):")
+        matrix = r"\begin{bmatrix} R & (I - R) q \\ 0 & 1 \end{bmatrix}"
+        rodrigues = rf"I + {hat} \sin\theta + {hat}^{{2}} (1 - \cos\theta)"
+        yield Formula((self.n.exponential(0, r"\theta").replace("_{0}", ""), rf"{matrix} , \quad R", rodrigues))
+        yield Paragraph(self._abbreviations())
+        for i, matrix in enumerate(self.d.exponentials, 1):
+            yield from self.result(self.exponential(i), matrix=matrix, name=f"e{i}")
+
+    def _abbreviations(self) -> str:
+        atoms = {s: e for s, e in self.d.atoms.explicit.items() if s in self.d.pose.free_symbols}
+        shown = [f"${self.set(s)} = {self.set(e)}$" for s, e in list(atoms.items())[:4]]
+        return f"Sines and cosines are written in short: {', '.join(shown)}." if shown else "No joint turns."
+
+    def pose(self) -> Iterable[Block]:
+        d, n = self.d, self.n
+        product = " ".join(self.exponential(i) for i in self.numbers)
+        yield Paragraph(f"The pose is the product of the exponentials and the home pose ({self.cite('pose')}):")
+        yield Formula((n.pose, f"{product} {n.home}"))
+        for i, partial in enumerate(d.partial_products, 1):
+            if i > 1 and self.small:
+                so_far = " ".join(self.exponential(k) for k in range(1, i + 1))
+                yield from self.result(so_far, matrix=partial, name="P")
+        if self.small and d.screws:
+            both = f"{self.set.matrix(d.partial_products[-1])} {self.set.matrix(d.home)}"
+            if not self.set.is_wide(d.partial_products[-1]):
+                yield Formula((n.pose, both))
+        yield from self.result(n.pose, matrix=d.pose, name="g")
+
+    def rate(self) -> Iterable[Block]:
+        rates = [self.set(joint.variable.rate) for joint in self.d.chain.joints]
+        pose = self.n.pose.split("(", maxsplit=1)[0]
+        terms = [rf"\frac{{\partial {pose}}}{{\partial {v}}} {r}" for v, r in zip(self.values, rates, strict=True)]
+        yield Formula((self.n.pose_rate, " + ".join(terms) or "0"))
+        for term, matrix in zip(terms, self.d.pose_rates, strict=True):
+            yield from self.result(term, matrix=matrix, name="t")
+        yield from self.result(self.n.pose_rate, matrix=self.d.pose_rate, name=r"\dot{g}")
+
+    def inverse(self) -> Iterable[Block]:
+        pose = self.n.pose.split("(", maxsplit=1)[0]
+        general = r"\begin{bmatrix} R^{T} & -R^{T} p \\ 0 & 1 \end{bmatrix}"
+        yield Paragraph(f"With $R$ and $p$ of the pose ({self.cite('inverse')}):")
+        yield from self.result(f"{pose}^{{-1}}", general, matrix=self.d.inverse, name="i")
+
+    def velocity_matrix(self) -> Iterable[Block]:
+        pose = self.n.pose.split("(", maxsplit=1)[0]
+        yield Paragraph(f"The product of (f) and (e) ({self.cite('velocity')}):")
+        head = (self.n.body_velocity_hat, f"{pose}^{{-1}} {self.n.pose_rate}")
+        if self.small and not self.set.is_wide(self.d.pose_rate) and not self.set.is_wide(self.d.inverse):
+            yield Formula((*head, f"{self.set.matrix(self.d.inverse)} {self.set.matrix(self.d.pose_rate)}"))
+        yield from self.result(*head, matrix=self.d.body_hat, name=r"\hat{v}")
+
+    def velocity(self) -> Iterable[Block]:
+        v = r"\begin{bmatrix} \hat{\omega} & v \\ 0 & 0 \end{bmatrix}"
+        yield Paragraph("The matrix has the two parts of the twist in it:")
+        yield Formula((self.n.body_velocity_hat, v.replace(r"\hat{\omega}", self.n.hat.format(r"\omega"))))
+        yield from self._vector(self.n.body_velocity, self.d.body_velocity)
+
+    def _vector(self, name: str, matrix: sp.Matrix) -> list[Block]:
+        return self.result(name, matrix=self.n.rows(matrix), name=f"({name})")
+
+    def body_jacobian(self) -> Iterable[Block]:
+        yield Paragraph(f"Column by column, each twist as the tool sees it ({self.cite('body')}):")
+        for i in self.numbers:
+            product = " ".join(self.exponential(k) for k in range(i, len(self.values) + 1))
+            head = rf"\mathrm{{Ad}}^{{-1}}_{{\left({product} {self.n.home}\right)}} {self.twist(i)}"
+            yield from self._jacobian_column("body", self.n.body_column.format(i), head, i)
+        yield from self._jacobian("body", self.n.body)
+
+    def spatial_jacobian(self) -> Iterable[Block]:
+        yield Paragraph(f"Column by column, each twist as the joints before it have moved it ({self.cite('spatial')}):")
+        for i in self.numbers:
+            product = " ".join(self.exponential(k) for k in range(1, i))
+            head = rf"\mathrm{{Ad}}_{{\left({product}\right)}} {self.twist(i)}" if product else self.twist(i)
+            yield from self._jacobian_column("spatial", self.n.spatial_column.format(i), head, i)
+        yield from self._jacobian("spatial", self.n.spatial)
+
+    def _jacobian_column(self, kind: str, name: str, general: str, i: int) -> list[Block]:
+        d = self.d
+        parts = [name, general]
+        if self.small:
+            adjoint = (d.body_adjoints if kind == "body" else d.spatial_adjoints)[i - 1]
+            inserted = f"{self.set.matrix(self.n.both(adjoint))} {self.column(d.screws[i - 1].twist)}"
+            if not self.set.is_wide(adjoint) and adjoint != sp.eye(6):
+                parts.append(inserted)
+        column = d.columns(kind)[:, i - 1]
+        return self.result(*parts, matrix=self.n.rows(column), name=f"({name})")
+
+    def _jacobian(self, kind: str, name: str) -> Iterable[Block]:
+        d = self.d
+        column = self.n.body_column if kind == "body" else self.n.spatial_column
+        if d.follows:
+            yield Paragraph("A coordinate's column is the sum of its joints', each times its multiplier:")
+            yield from self.result(name, matrix=self.n.rows(d.jacobian(kind)), name="J")
+            return
+        columns = " & ".join(column.format(i) for i in self.numbers)
+        general = rf"\begin{{bmatrix}} {columns} \end{{bmatrix}}"
+        yield from self.result(name, general, matrix=self.n.rows(d.jacobian(kind)), name="J")
+
+    def velocity_check(self) -> Iterable[Block]:
+        d = self.d
+        rates = sp.Matrix([joint.variable.rate for joint in d.chain.joints])
+        inserted = f"{self.column(d.columns('body'))} {self.set.matrix(rates)}"
+        head = (self.n.body_velocity, rf"{self.n.body} \dot{{\theta}}")
+        head = head if self.set.is_wide(d.columns("body")) else (*head, inserted)
+        yield from self.result(*head, matrix=self.n.rows(d.body_velocity), name="V")
+        same = "It is (h), entry for entry." if d.velocities_agree else "It is NOT (h): one of the two is wrong."
+        yield Paragraph(same)
+
+    def hybrid_velocity(self) -> Iterable[Block]:
+        turn = r"\begin{bmatrix} R & 0 \\ 0 & R \end{bmatrix}"
+        yield Paragraph("The velocity of the tool's origin and its angular velocity, both in the axes of the base:")
+        head = (self.n.hybrid_velocity, f"{turn} {self.n.body_velocity}")
+        yield from self.result(*head, matrix=self.n.rows(self.d.hybrid_velocity), name="V")
+
+    def hybrid_jacobian(self) -> Iterable[Block]:
+        turn = r"\begin{bmatrix} R & 0 \\ 0 & R \end{bmatrix}"
+        yield Paragraph("The rows of the tool's origin are the partial derivatives of its position:")
+        hybrid = self.n.rows(self.d.jacobian("hybrid"))
+        yield from self.result(self.n.hybrid, f"{turn} {self.n.body}", matrix=hybrid, name="H")
+        if self.small:
+            pose = self.n.pose.split("(", maxsplit=1)[0]
+            yield Paragraph(
+                f"The adjoint of the pose carries the body Jacobian to the spatial one ({self.cite('adjoint')}):"
+            )
+            name = rf"\mathrm{{Ad}}_{{{pose}}}"
+            yield Formula((self.n.spatial, f"{name} {self.n.body}"))
+            yield from self.result(name, self.n.adjoint, matrix=self.n.both(self.d.adjoint), name="a")
+
+    def singularities(self) -> Iterable[Block]:
+        found = self.d.singularities
+        yield Paragraph(found.words)
+        for measure in found.measures:
+            yield Formula((measure.name, self.set(measure.value)))
+            if measure.factors:
+                shown = ", or ".join(f"${self.set(factor)} = 0$" for factor in measure.factors)
+                yield Paragraph(f"It vanishes only where {shown}.")
+            elif measure.value == 0:
+                yield Paragraph("It is zero everywhere: such motions are never all possible.")
+            else:
+                yield Paragraph("It vanishes nowhere.")
+
+
+def given(derivation: Derivation) -> Section:
+    """What the derivation starts from: the robot, its lengths and joints, and what was taken for what."""
+    d = derivation
+    t = Typesetter(d)
+    n = NOTATIONS[d.convention]
+    blocks: list[Block] = [
+        Paragraph(
+            f"The motion of the frame `{d.tip}` in `{d.robot.base}`. Twists are in the order {n.order}; lengths are "
+            f"in metres, angles in radians. Equations are those of {n.book}."
+        )
+    ]
+    rows = []
+    for joint in d.chain.joints:
+        kind = "turns" if joint.revolute else "slides"
+        value = f"${t(joint.variable.symbol)}$"
+        if joint.master is not joint.variable:
+            value += f" $= {t(joint.multiplier * joint.master.symbol)}$"
+        rows.append((f"`{joint.variable.joint}`", kind, value))
+    if rows:
+        blocks.append(Table(("joint", "", "value"), tuple(rows)))
+    if d.lengths:
+        rows = [(f"${t(s)}$", f"{float(value):.9g}") for s, value in d.lengths.items()]
+        blocks += [Paragraph("Symbols, and their values in this file:"), Table(("symbol", "value"), tuple(rows))]
+    blocks += [Paragraph(f"{remark[0].upper()}{remark[1:]}.") for remark in d.remarks]
+    if d.snapped:
+        blocks.append(Paragraph("Numbers of the file that were taken for exact ones:"))
+        rows = [(s.where, f"`{s.printed}`", f"${t(s.value)}$", f"{s.change:.1e}") for s in d.snapped]
+        blocks.append(Table(("where", "printed", "taken for", "change"), tuple(rows)))
+    if not d.exact:
+        blocks.append(Paragraph("Some numbers are not exact: they are kept to 30 decimals and shown to 6 digits."))
+    if d.large:
+        blocks.append(Paragraph("For an arm of this size, velocities term by term are shown only where asked for."))
+    return Section("", "given", "What is given", tuple(blocks))
