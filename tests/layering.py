@@ -49,6 +49,8 @@ OUTSIDE = {
     "xacro": "description._xacro_worker",
     "pinocchio": "engines.pinocchio",
     "sympy": "derivation",
+    "latex2mathml": "derivation",
+    "tornado": "view",
     "trimesh": "view",
     "meshcat": "view",
     "matplotlib": "view",

@@ -23,6 +23,8 @@ from pathlib import Path
 from typing import IO, Any, Final
 
 SECONDS: Final = 10
+"""Of processor time that a child and its own children may take; on the clock it is killed after `PATIENCE`."""
+PATIENCE: Final = 30
 MEMORY: Final = 2**30
 """Bytes that a child may hold in memory, its own children's included, and map beyond what the imports did."""
 NOBODY: Final = 65534
@@ -34,6 +36,8 @@ class Result:
 
     Attributes:
         status: exit status; negative, the signal that ended it.
+        seconds: on the clock.
+        work: seconds of processor time, its own children's included.
         peak: most bytes that it, or a child of it, held in memory, shared ones included.
     """
 
@@ -41,6 +45,7 @@ class Result:
     stdout: str
     stderr: str
     seconds: float
+    work: float
     peak: int
 
 
@@ -117,23 +122,24 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
         child = os.fork()
         if child == 0:
             _run(request, out.fileno(), err.fileno())
-        status, peak = _wait(child, start)
+        status, work, peak = _wait(child, start)
         texts = []
         for stream in (out, err):
             stream.seek(0)
             texts.append(stream.read().decode(errors="replace"))
     seconds = time.monotonic() - start
-    return {"status": status, "stdout": texts[0], "stderr": texts[1], "seconds": seconds, "peak": peak}
+    measured = {"seconds": seconds, "work": work, "peak": peak}
+    return {"status": status, "stdout": texts[0], "stderr": texts[1], **measured}
 
 
-def _wait(child: int, start: float) -> tuple[int, int]:
-    """Exit status and peak memory of a child, killed with all its own when its time is up."""
+def _wait(child: int, start: float) -> tuple[int, float, int]:
+    """Exit status, processor time and peak memory of a child, killed with all its own when its time is up."""
     while True:
         pid, status, usage = os.wait4(child, os.WNOHANG)
         if pid:
             unit = 1 if sys.platform == "darwin" else 1024
-            return os.waitstatus_to_exitcode(status), usage.ru_maxrss * unit
-        if time.monotonic() - start > SECONDS:
+            return os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, usage.ru_maxrss * unit
+        if time.monotonic() - start > PATIENCE:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(child, signal.SIGKILL)
         time.sleep(0.002)
@@ -198,8 +204,8 @@ def one_error(result: Result, words: Sequence[str]) -> str:
 
 
 def within_limits(result: Result) -> None:
-    """Time is kept by the server, which kills; memory is looked at here."""
-    assert result.seconds < SECONDS
+    """That a child took no more than it may, as far as nothing ended it for that."""
+    assert result.work < SECONDS
     assert result.peak < MEMORY
 
 

@@ -137,6 +137,22 @@ def test_names_are_text(name: str, server: limited.Server, tmp_path: Path) -> No
     assert robot.tip in result.stdout or robot.tip.encode("unicode_escape").decode() in result.stdout
 
 
+@pytest.mark.xfail(strict=True, reason="errors.py writes names and paths into messages as they are, however long")
+@pytest.mark.parametrize("option", [(), ("--tip", "x"), ("-q", "x=1")], ids=str)
+def test_messages_stay_in_their_line(option: tuple[str, ...], server: limited.Server, tmp_path: Path) -> None:
+    """The leaves, frames and joints that a message lists, and the file that it names, may hold anything."""
+    names = ("b&#10;c", "d\u009b31m", "e\u202ef", "g" * 90_000)
+    joints = [
+        bad_inputs.joint(name=name, ends=f'<parent link="a"/><child link="{name}"/>') + f'<link name="{name}"/>'
+        for name in names
+    ]
+    file = tmp_path / "line\nbreak\x1b[31m.urdf"
+    file.write_text(bad_inputs.robot("".join(joints), '<link name="a"/>'), encoding="utf-8")
+    message = limited.one_error(server.run("fk", file, *option), [])
+    assert message.isprintable()
+    assert len(message) < 3000
+
+
 def test_a_real_process() -> None:
     """Once as users run it, to show that the server's forks are the same."""
     command = [sys.executable, "-m", "pinscrew", "verify", os.devnull + ".urdf", "--samples", "2"]

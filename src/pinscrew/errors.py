@@ -19,6 +19,7 @@ __all__ = [
     "PinscrewWarning",
     "UnknownNameError",
     "UnsupportedError",
+    "ViewError",
     "XacroError",
 ]
 
@@ -144,6 +145,10 @@ class MissingExtraError(PinscrewError, ImportError):
 
 class EngineError(PinscrewError, RuntimeError):
     """An engine refused a robot that the description accepts; the message carries the engine's own words."""
+
+
+class ViewError(PinscrewError, RuntimeError):
+    """A robot can't be shown: the view's server or the browser fails."""
 
 
 class PinscrewWarning(UserWarning):

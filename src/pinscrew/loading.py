@@ -33,7 +33,7 @@ def load(
         arguments: the xacro file's arguments, where their names are no Python identifiers or are taken here.
         packages: roots of ROS packages by name, for ``$(find …)`` and ``package://``; the environment's and the
             file's own are found without.
-        allow_outside: let a xacro file read files outside its own folder and the packages.
+        allow_outside: let a xacro file read files outside its own folder and the packages; for meshes, see `show`.
         more: the xacro file's arguments, such as ``l1=0.4``.
 
     Raises:

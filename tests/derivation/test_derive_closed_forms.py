@@ -1,15 +1,15 @@
 """Every closed form of A1–A10 equals the derived one: the difference reduces to zero."""
 
 import pytest
+import symbolic_forms as sf
 import sympy as sp
 
 import pinscrew as ps
-import symbolic_forms as sf
 
 CASES = [(robot, tip, what) for (robot, tip), forms in sf.FORMS.items() for what in forms]
 
 
-@pytest.mark.parametrize(("robot", "tip", "what"), CASES, ids=lambda x: str(x))
+@pytest.mark.parametrize(("robot", "tip", "what"), CASES, ids=str)
 def test_the_coursework_s_form(robot: str, tip: str | None, what: str) -> None:
     d = sf.derivation(robot, tip)
     mine, right = sf.derived(d, what), sf.expected(robot, tip, what)
@@ -18,7 +18,7 @@ def test_the_coursework_s_form(robot: str, tip: str | None, what: str) -> None:
         assert d.equal(entry, form), f"{entry} is not {form}"
 
 
-@pytest.mark.parametrize(("robot", "tip", "what"), CASES, ids=lambda x: str(x))
+@pytest.mark.parametrize(("robot", "tip", "what"), CASES, ids=str)
 def test_a_wrong_form_is_caught(robot: str, tip: str | None, what: str) -> None:
     """The check can fail: the sign of any entry, or a length in it, makes the difference."""
     d = sf.derivation(robot, tip)

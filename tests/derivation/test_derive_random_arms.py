@@ -1,10 +1,10 @@
 """Random arms: the closed forms equal both engines at 1e-12, whatever the angles."""
 
 import pytest
+from random_arms import random_arm
 
 import pinscrew as ps
 import urdfs
-from random_arms import random_arm
 
 SMALL = [(angles, joints, seed) for angles in ("30", "45", "any") for joints in (3, 4) for seed in range(2)]
 LARGE = [(angles, joints, seed) for angles in ("30", "45", "any") for joints in (3, 4, 5, 6) for seed in range(2, 4)]

@@ -18,8 +18,8 @@ import pytest
 from view_support import LOOPBACK, children, listening
 
 import pinscrew as ps
+from pinscrew.errors import ViewError
 from pinscrew.view import notebook, prepare
-from pinscrew.view.errors import ViewError
 from pinscrew.view.meshcat import View
 from pinscrew.view.server import HOST
 

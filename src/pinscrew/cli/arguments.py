@@ -84,7 +84,7 @@ def robot_argument(*, required: bool = True) -> Callable[[_F], _F]:
             is_flag=True,
             expose_value=False,
             callback=_keep,
-            help="Let a xacro file read files outside its own folder and the packages.",
+            help="Let files outside the robot's own folder and the packages be read, by xacro and for meshes.",
         ),
         click.option(
             "--floating-base",

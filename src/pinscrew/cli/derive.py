@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,7 +32,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     return found
 
 
-@click.command(name="derive")
+@click.command(name="derive", short_help="Derive closed forms of a frame's motion.")
 @arguments.robot_argument()
 @arguments.tip_option
 @click.option(
@@ -94,10 +95,8 @@ def command(words: tuple[str, ...], form: str, target: Path | None, errata: bool
       pinscrew derive planar_rrr --part i --convention lynch-park
       pinscrew derive path/to/arm.urdf --symbols --code c --kind hybrid
     """
-    try:
-        import sympy  # noqa: F401 (to say what is missing before anything is done)
-    except ImportError:
-        raise MissingExtraError("sympy is not installed", "derive") from None
+    if importlib.util.find_spec("sympy") is None:
+        raise MissingExtraError("sympy is not installed", "derive")
     text, ok = _errata(words, form) if errata else _report(words, form, **options)
     if target is None:
         click.echo(text, nl=not text.endswith("\n"))

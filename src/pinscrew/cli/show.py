@@ -34,7 +34,7 @@ def _groups(_ctx: click.Context, _param: click.Parameter, value: str | None) -> 
     return ("links", *words)
 
 
-@click.command(name="show")
+@click.command(name="show", short_help="Show a robot, its screws and velocities.")
 @arguments.robot_argument()
 @arguments.q_option
 @click.option(

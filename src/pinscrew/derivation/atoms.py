@@ -55,7 +55,7 @@ def _plain(parts: Sequence[tuple[int, str]]) -> str:
         sign = "m" if factor < 0 else ("_" if i and len(label) > 1 else "")
         words.append(sign + (f"{abs(factor)}x" if abs(factor) > 1 else "") + label)
     text = "".join(words)
-    return text if len(parts) == 1 and len(text) == 1 or text.isdigit() else f"_{text}".replace("__", "_")
+    return text if (len(parts) == 1 and len(text) == 1) or text.isdigit() else f"_{text}".replace("__", "_")
 
 
 def _typeset(parts: Sequence[tuple[int, str]]) -> str:

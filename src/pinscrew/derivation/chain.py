@@ -116,7 +116,7 @@ def compose(
     at_zero = {joint.name: pose for joint, pose in zip(path, poses, strict=True)}
     groups = _groups([(variables[j.name].symbol, at_zero[j.name][0]) for j in moving if j.type != "prismatic"])
     algebra = Algebra(groups, symbols, _primes(numbers), exact=exact)
-    lift = np.frompyfunc(lambda e: algebra.element({algebra.one: poly for poly in e.terms.values()}), 1, 1)
+    lift = np.frompyfunc(lambda e: algebra.element(dict.fromkeys([algebra.one], e.terms[()]) if e else {}), 1, 1)
     found = []
     for joint in moving:
         axis, point = (lift(x) for x in at_zero[joint.name])

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
 import sympy as sp
 
-from pinscrew import __version__
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.errors import InputError
 from pinscrew.typing import KindLike, jacobian_kind
@@ -68,7 +68,7 @@ def _header(d: Derivation, kind: str) -> tuple[str, ...]:
     lengths = ", ".join(f"{s} = {float(value):.9g}" for s, value in d.lengths.items()) or "none"
     lines = (
         f"Kinematics of {d.robot.name}: frame {d.tip} in frame {d.robot.base}.",
-        f"Closed forms derived and written by pinscrew {__version__}; lengths in m, angles in rad.",
+        f"Closed forms by pinscrew {importlib.metadata.version('pinscrew')}; lengths in m, angles in rad.",
         f"q, in this order: {q}",
         f"lengths, in this order: {lengths}",
         "fk: pose T, 4 by 4: p_base = T p_tip",

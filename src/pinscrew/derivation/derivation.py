@@ -122,9 +122,9 @@ class Derivation:
         found = []
         for joint in self.chain.joints:
             omega = joint.twist[3:]
-            vectors = (self.write(x.reshape(3, 1)) for x in (omega, joint.point, joint.twist[:3]))
+            vectors = [self.write(x.reshape(3, 1)) for x in (omega, joint.point, joint.twist[:3])]
             value = joint.multiplier * joint.master.symbol
-            found.append(Screw(joint.variable.joint, joint.revolute, *vectors, value))
+            found.append(Screw(joint.variable.joint, joint.revolute, vectors[0], vectors[1], vectors[2], value))
         return tuple(found)
 
     @cached_property

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, Final
@@ -134,29 +134,30 @@ def _evaluate(text: str, robot: Robot, q: FloatArray, qd: FloatArray, delta: Flo
     known |= {k: float(v) for k, v in {**catalogue.declared_arguments(path), **robot.description.arguments}.items()}
     expression = _expression(text)
     symbols = sorted(expression.free_symbols, key=str)
-    value = sp.lambdify(symbols, expression, "numpy")(*(known[str(symbol)] for symbol in symbols))
-    return np.broadcast_to(np.asarray(value, dtype=float), len(q))
+    function: Callable[..., Any] = sp.lambdify(symbols, expression, "numpy")
+    value = np.asarray(function(*(known[str(symbol)] for symbol in symbols)), dtype=float)
+    return np.broadcast_to(value, len(q))
 
 
 def _quantity(engine: Any, erratum: Erratum, q: FloatArray, qd: FloatArray, delta: FloatArray) -> FloatArray:
     """A quantity by an engine, shape (N, rows, columns)."""
     what = erratum.quantity
-    pose = engine.fk(q)
-    if what in ("home", "twist"):
-        zero = np.zeros_like(q)
-        if what == "home":
-            return np.asarray(engine.fk(zero))
+    pose, zero = engine.fk(q), np.zeros_like(q)
+
+    def twist() -> Any:
         J = engine.jacobian(zero, None, "spatial")
-        reference = engine.fk(zero, erratum.reference or None) if erratum.reference else None
-        return J if reference is None else se3.adjoint(se3.inverse(reference)) @ J
-    if what == "step":
-        later = q.copy()
-        later[:, 0] += delta
-        return np.asarray(engine.fk(later))
-    if what == "pitch":  # how far the tool advances along the screw for each radian that it turns
-        twist = se3.log(se3.inverse(engine.fk(np.zeros_like(q))) @ engine.fk(np.full_like(q, 0.3)))
-        return (twist[:, 2] / twist[:, 5])[:, None, None]
-    simple = {
+        return se3.adjoint(se3.inverse(engine.fk(zero, erratum.reference or robot.base))) @ J
+
+    def pitch() -> Any:  # how far the tool advances along the screw for each radian that it turns
+        moved = se3.log(se3.inverse(engine.fk(zero)) @ engine.fk(zero + 0.3))
+        return (moved[:, 2] / moved[:, 5])[:, None, None]
+
+    robot = engine.robot
+    simple: dict[str, Callable[[], Any]] = {
+        "home": lambda: engine.fk(zero),
+        "twist": twist,
+        "step": lambda: engine.fk(np.concatenate([q[:, :1] + delta[:, None], q[:, 1:]], axis=1)),
+        "pitch": pitch,
         "pose": lambda: pose,
         "inverse": lambda: se3.inverse(pose),
         "rate": lambda: se3.hat(engine.velocity(q, qd, None, "spatial")) @ pose,

@@ -104,10 +104,9 @@ def _block(block: Block) -> str:
 
 def _formula(formula: Formula) -> str:
     first, *rest = formula.parts
+    lines = [formula.latex]
     if is_long(formula):
         lines = [f"{first} = {rest[0]}", *(f"= {part}" for part in rest[1:])]
-    else:
-        lines = [formula.latex]
     shown = "".join(f"<div>{_math(line, 'block')}</div>" for line in lines)
     source = f"<details><summary>LaTeX</summary><pre>{escape(formula.latex)}</pre></details>"
     return f'<div class="formula"><div class="lines">{shown}</div>{source}</div>'

@@ -8,8 +8,10 @@ from typing import Final
 from pinscrew.derivation import formats, page
 from pinscrew.derivation.blocks import Block, Paragraph, Report, Section, Table
 from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
-from pinscrew.derivation.sections import given, sections
+from pinscrew.derivation.sections import sections
+from pinscrew.derivation.typeset import Typesetter
 from pinscrew.errors import InputError
 
 __all__ = ["report", "write"]
@@ -28,9 +30,44 @@ def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extr
         InputError: if there is no such part.
     """
     d = derivation
-    listed = (given(d), *sections(d, parts), *extra, _proof(proof))
+    listed = (_given(d), *sections(d, parts), *extra, _proof(proof))
     title = f"Closed-form kinematics of {d.robot.name}"
     return Report(title, listed, _code(d), proof.ok)
+
+
+def _given(derivation: Derivation) -> Section:
+    """What the derivation starts from: the robot, its lengths and joints, and what was taken for what."""
+    d = derivation
+    t = Typesetter(d)
+    n = NOTATIONS[d.convention]
+    blocks: list[Block] = [
+        Paragraph(
+            f"The motion of the frame `{d.tip}` in `{d.robot.base}`. Twists are in the order {n.order}; lengths are "
+            f"in metres, angles in radians. Equations are those of {n.book}."
+        )
+    ]
+    rows: list[tuple[str, ...]] = []
+    for joint in d.chain.joints:
+        kind = "turns" if joint.revolute else "slides"
+        value = f"${t(joint.variable.symbol)}$"
+        if joint.master is not joint.variable:
+            value += f" $= {t(joint.multiplier * joint.master.symbol)}$"
+        rows.append((f"`{joint.variable.joint}`", kind, value))
+    if rows:
+        blocks.append(Table(("joint", "", "value"), tuple(rows)))
+    if d.lengths:
+        rows = [(f"${t(s)}$", f"{float(value):.9g}") for s, value in d.lengths.items()]
+        blocks += [Paragraph("Symbols, and their values in this file:"), Table(("symbol", "value"), tuple(rows))]
+    blocks += [Paragraph(f"{remark[0].upper()}{remark[1:]}.") for remark in d.remarks]
+    if d.snapped:
+        blocks.append(Paragraph("Numbers of the file that were taken for exact ones:"))
+        rows = [(s.where, f"`{s.printed}`", f"${t(s.value)}$", f"{s.change:.1e}") for s in d.snapped]
+        blocks.append(Table(("where", "printed", "taken for", "change"), tuple(rows)))
+    if not d.exact:
+        blocks.append(Paragraph("Some numbers are not exact: they are kept to 30 decimals and shown to 6 digits."))
+    if d.large:
+        blocks.append(Paragraph("For an arm of this size, velocities term by term are shown only where asked for."))
+    return Section("", "given", "What is given", tuple(blocks))
 
 
 def _proof(proof: Proof) -> Section:
@@ -61,8 +98,7 @@ def _proof(proof: Proof) -> Section:
 
 def _code(d: Derivation) -> str:
     arguments = "".join(f", {name}={value!r}" for name, value in d.robot.description.arguments.items())
-    robot = d.robot.name if not arguments else d.robot.name
-    return f"import pinscrew as ps\n\nrobot = ps.load({robot!r}{arguments})\nd = ps.derive(robot, {d.tip!r})"
+    return f"import pinscrew as ps\n\nrobot = ps.load({d.robot.name!r}{arguments})\nd = ps.derive(robot, {d.tip!r})"
 
 
 def write(report: Report, form: str) -> str:

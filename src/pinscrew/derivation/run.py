@@ -76,9 +76,9 @@ def derive(
         UnsupportedError: if more than 8 joints, or one that is floating or planar, move the frame.
         InputError: if a symbol collides with another, or an option is none.
     """
-    for value, known, what in ((names, Naming, "names"), (convention, Convention, "convention")):
-        if value not in get_args(known):
-            raise InputError("derive-option", f"{what}={value!r}", remedy=f"use one of {', '.join(get_args(known))}")
+    for option, known, what in ((names, Naming, "names"), (convention, Convention, "convention")):
+        if option not in get_args(known):
+            raise InputError("derive-option", f"{what}={option!r}", remedy=f"use one of {', '.join(get_args(known))}")
     if not 0.0 <= snap <= 0.1:
         raise InputError("derive-option", f"snap={snap}", remedy="give an angle from 0 to 0.1 rad")
     tip = robot.frame(tip)
@@ -166,9 +166,8 @@ class _Lengths:
         if name in self._used or name in map(str, self._lengths):
             raise _collision(name, "another length has it")
         self._used.add(name)
-        self._names[size] = self._lengths.setdefault(sp.Symbol(name, positive=True), size) and sp.Symbol(
-            name, positive=True
-        )
+        self._names[size] = sp.Symbol(name, positive=True)
+        self._lengths[self._names[size]] = size
 
     def finish(self) -> None:
         """Refuse names for lengths that do not occur."""

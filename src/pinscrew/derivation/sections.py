@@ -10,13 +10,13 @@ from typing import Final
 
 import sympy as sp
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.typeset import Typesetter
 from pinscrew.errors import InputError
 
-__all__ = ["PARTS", "given", "sections", "wanted"]
+__all__ = ["PARTS", "sections", "wanted"]
 
 PARTS: Final = {
     "home": "a",
@@ -89,11 +89,8 @@ class _Writer:
         self.n = NOTATIONS[derivation.convention]
         self.set = Typesetter(derivation)
         self.values = [self.set(joint.variable.symbol) for joint in derivation.chain.joints]
+        self.numbers = range(1, len(self.values) + 1)
         self.small = not derivation.large
-
-    @property
-    def numbers(self) -> range:
-        return range(1, len(self.values) + 1)
 
     def twist(self, i: int) -> str:
         return self.n.twist.format(i)
@@ -141,7 +138,6 @@ class _Writer:
         )
         yield Formula((self.twist(0).replace("_{0}", ""), turning))
         for i, screw in enumerate(self.d.screws, 1):
-            head: tuple[str, ...] = ()
             if screw.revolute:
                 product = f"-{self.set.matrix(screw.omega)} \\times {self.set.matrix(screw.q)}"
                 head = (rf"-\omega_{{{i}}} \times q_{{{i}}}", product, self.set.matrix(screw.v))
@@ -183,9 +179,8 @@ class _Writer:
 
     def pose(self) -> Iterable[Block]:
         d, n = self.d, self.n
-        product = " ".join(self.exponential(i) for i in self.numbers)
         yield Paragraph(f"The pose is the product of the exponentials and the home pose ({self.cite('pose')}):")
-        yield Formula((n.pose, f"{product} {n.home}"))
+        yield Formula((n.pose, " ".join((*map(self.exponential, self.numbers), n.home))))
         for i, partial in enumerate(d.partial_products, 1):
             if i > 1 and self.small:
                 so_far = " ".join(self.exponential(k) for k in range(1, i + 1))
@@ -223,10 +218,7 @@ class _Writer:
         v = r"\begin{bmatrix} \hat{\omega} & v \\ 0 & 0 \end{bmatrix}"
         yield Paragraph("The matrix has the two parts of the twist in it:")
         yield Formula((self.n.body_velocity_hat, v.replace(r"\hat{\omega}", self.n.hat.format(r"\omega"))))
-        yield from self._vector(self.n.body_velocity, self.d.body_velocity)
-
-    def _vector(self, name: str, matrix: sp.Matrix) -> list[Block]:
-        return self.result(name, matrix=self.n.rows(matrix), name=f"({name})")
+        yield from self.result(self.n.body_velocity, matrix=self.n.rows(self.d.body_velocity), name="v")
 
     def body_jacobian(self) -> Iterable[Block]:
         yield Paragraph(f"Column by column, each twist as the tool sees it ({self.cite('body')}):")
@@ -270,11 +262,10 @@ class _Writer:
         d = self.d
         rates = sp.Matrix([joint.variable.rate for joint in d.chain.joints])
         inserted = f"{self.column(d.columns('body'))} {self.set.matrix(rates)}"
-        head = (self.n.body_velocity, rf"{self.n.body} \dot{{\theta}}")
+        head: tuple[str, ...] = (self.n.body_velocity, rf"{self.n.body} \dot{{\theta}}")
         head = head if self.set.is_wide(d.columns("body")) else (*head, inserted)
         yield from self.result(*head, matrix=self.n.rows(d.body_velocity), name="V")
-        same = "It is (h), entry for entry." if d.velocities_agree else "It is NOT (h): one of the two is wrong."
-        yield Paragraph(same)
+        yield Paragraph("It is (h), entry for entry." if d.velocities_agree else "It is NOT (h): one of them is wrong.")
 
     def hybrid_velocity(self) -> Iterable[Block]:
         turn = r"\begin{bmatrix} R & 0 \\ 0 & R \end{bmatrix}"
@@ -308,38 +299,3 @@ class _Writer:
                 yield Paragraph("It is zero everywhere: such motions are never all possible.")
             else:
                 yield Paragraph("It vanishes nowhere.")
-
-
-def given(derivation: Derivation) -> Section:
-    """What the derivation starts from: the robot, its lengths and joints, and what was taken for what."""
-    d = derivation
-    t = Typesetter(d)
-    n = NOTATIONS[d.convention]
-    blocks: list[Block] = [
-        Paragraph(
-            f"The motion of the frame `{d.tip}` in `{d.robot.base}`. Twists are in the order {n.order}; lengths are "
-            f"in metres, angles in radians. Equations are those of {n.book}."
-        )
-    ]
-    rows = []
-    for joint in d.chain.joints:
-        kind = "turns" if joint.revolute else "slides"
-        value = f"${t(joint.variable.symbol)}$"
-        if joint.master is not joint.variable:
-            value += f" $= {t(joint.multiplier * joint.master.symbol)}$"
-        rows.append((f"`{joint.variable.joint}`", kind, value))
-    if rows:
-        blocks.append(Table(("joint", "", "value"), tuple(rows)))
-    if d.lengths:
-        rows = [(f"${t(s)}$", f"{float(value):.9g}") for s, value in d.lengths.items()]
-        blocks += [Paragraph("Symbols, and their values in this file:"), Table(("symbol", "value"), tuple(rows))]
-    blocks += [Paragraph(f"{remark[0].upper()}{remark[1:]}.") for remark in d.remarks]
-    if d.snapped:
-        blocks.append(Paragraph("Numbers of the file that were taken for exact ones:"))
-        rows = [(s.where, f"`{s.printed}`", f"${t(s.value)}$", f"{s.change:.1e}") for s in d.snapped]
-        blocks.append(Table(("where", "printed", "taken for", "change"), tuple(rows)))
-    if not d.exact:
-        blocks.append(Paragraph("Some numbers are not exact: they are kept to 30 decimals and shown to 6 digits."))
-    if d.large:
-        blocks.append(Paragraph("For an arm of this size, velocities term by term are shown only where asked for."))
-    return Section("", "given", "What is given", tuple(blocks))

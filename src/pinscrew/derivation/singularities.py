@@ -168,7 +168,7 @@ class _Polynomials:
 
     def _determinant(self, rows: Sequence[Sequence[PolyElement]]) -> PolyElement:
         """Laplace's expansion, row by row over sets of columns."""
-        minors = {(): self.ring.one}
+        minors: dict[tuple[int, ...], PolyElement] = {(): self.ring.one}
         for row in rows:
             longer: dict[tuple[int, ...], PolyElement] = {}
             for columns, minor in minors.items():
@@ -200,9 +200,7 @@ class _Polynomials:
             base = factor.base if factor.is_Pow else factor
             if base.is_positive:
                 continue
-            if base.is_Add and base.free_symbols & (self.d.atoms.explicit.keys() | set(self.d.solution_symbols)):
-                factors.append(base)
-            elif base in self.d.solution_symbols or base in self.d.atoms.explicit:
+            if base.free_symbols & (self.d.atoms.explicit.keys() | set(self.d.solution_symbols)):
                 factors.append(base)
         return Measure(name, sp.Mul(rest, *(factor**power for factor, power in outside)), tuple(factors))
 

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pinscrew.derivation.chain import Chain, Elements, Moving, cross
-from pinscrew.derivation.trig import Algebra
+from pinscrew.derivation.trig import Algebra, Element
 
 __all__ = ["Solution", "adjoint", "adjoint_inverse", "derivative", "hat", "inverse"]
 
@@ -135,7 +135,7 @@ class Solution:
         return not (self.body_hat - hat(self._algebra, self.body_velocity)).any()
 
     @property
-    def _rate(self) -> list[Elements]:
+    def _rate(self) -> list[Element]:
         return [self._algebra.constant(joint.variable.rate) for joint in self._joints]
 
     def _times_rate(self, J: Elements) -> Elements:

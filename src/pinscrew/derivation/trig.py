@@ -104,7 +104,7 @@ class Algebra:
         self.one: Key = (None,) * len(self.angles)
         self._place = {a: (g, i) for g, group in enumerate(self.angles) for i, a in enumerate(group)}
 
-    def polynomial(self, expression: Any) -> PolyElement:
+    def polynomial(self, expression: Any) -> PolyElement:  # noqa: PLR0911 (one for each kind of expression)
         """A coefficient, read from a polynomial expression in the symbols, roots and numbers."""
         expression = sp.sympify(expression)
         if expression in self._generators:
@@ -142,11 +142,11 @@ class Algebra:
             return poly
         out = self.ring.zero
         for monomial, coefficient in poly.items():
-            low = list(monomial)
+            low, whole = list(monomial), 1
             for i, prime in enumerate(self._primes, start):
-                coefficient *= QQ(prime ** (low[i] // 2))
+                whole *= prime ** (low[i] // 2)
                 low[i] %= 2
-            out += self.ring.term_new(tuple(low), coefficient)
+            out += self.ring.term_new(tuple(low), coefficient * QQ(whole))
         return out
 
     def element(self, terms: Mapping[Key, PolyElement]) -> Element:

@@ -53,7 +53,7 @@ class Typesetter:
         """An expression."""
         return self._set(sp.sympify(expression))[0]
 
-    def _set(self, e: sp.Expr) -> tuple[str, int]:
+    def _set(self, e: sp.Expr) -> tuple[str, int]:  # noqa: PLR0911 (one for each kind of expression)
         """The LaTeX of an expression, and how it binds."""
         if e.is_Add:
             return self._sum(e), _PRODUCT if _negative(e) else _ADD

@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
-from pinscrew.view.errors import ViewError
+from pinscrew.errors import ViewError
 
 __all__ = ["BROWSERS", "find_browser", "picture"]
 

@@ -18,7 +18,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, Final, TypeVar
 
-from pinscrew.view.errors import ViewError
+from pinscrew.errors import ViewError
 
 __all__ = ["HOST", "PORT", "Server"]
 

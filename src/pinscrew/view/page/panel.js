@@ -106,10 +106,9 @@
     _coordinate(coordinate, i) {
       const { app } = this, [low, high] = app.robot.range(i);
       const row = element("div", "coordinate");
-      const title = element("div", "title");
-      const name = title.appendChild(element("span", "name", coordinate.name));
-      name.title = coordinate.name;
-      const unit = title.appendChild(element("span", "unit"));
+      const title = element("span", "name", coordinate.name);
+      title.title = coordinate.name;
+      const unit = element("span", "unit");
       const value = element("input", "value");
       value.type = "number";
       value.step = "any";
@@ -124,6 +123,7 @@
       const limit = (x, other) => (x === null ? `no limit (${fixed(other, 2)})` : fixed(x, 3));
       ends.append(
         element("span", "", limit(coordinate.lower, low)),
+        unit,
         element("span", "", limit(coordinate.upper, high)),
       );
       const change = (text) => {
