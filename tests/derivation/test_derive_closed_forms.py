@@ -93,6 +93,14 @@ def test_gears_and_lead_screw() -> None:
         assert d.jacobian(kind) == sp.ImmutableMatrix([0, 0, lead / (2 * sp.pi), 0, 0, 1])
 
 
+def test_symbols_by_name() -> None:
+    d = sf.derivation("spherical_rrp")
+    assert d.equal(
+        d.pose[2, 3], d.symbols["L0"] - sp.sin(d.symbols["theta2"]) * (d.symbols["L3"] + d.symbols["theta3"])
+    )
+    assert d.symbols["s2"] in d.pose.free_symbols
+
+
 def test_names_of_joints() -> None:
     robot = ps.load("scara_rrp")
     d = ps.derive(robot, names="d")

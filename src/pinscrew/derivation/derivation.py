@@ -107,6 +107,12 @@ class Derivation:
         return self.chain.coordinates
 
     @property
+    def symbols(self) -> Mapping[str, sp.Symbol]:
+        """Every symbol by its name: lengths, values and rates of joints, sines and cosines made so far."""
+        values = [s for variable in self.variables for s in (variable.symbol, variable.rate)]
+        return {str(symbol): symbol for symbol in (*self.lengths, *values, *self.atoms.explicit)}
+
+    @property
     def exact(self) -> bool:
         """Whether every number is exact; otherwise some are decimals of 30 digits."""
         return self.chain.algebra.exact

@@ -89,6 +89,7 @@ class _Writer:
         self.n = NOTATIONS[derivation.convention]
         self.set = Typesetter(derivation)
         self.values = [self.set(joint.variable.symbol) for joint in derivation.chain.joints]
+        self.pose_name = self.n.pose.split("(", maxsplit=1)[0]
         self.numbers = range(1, len(self.values) + 1)
         self.small = not derivation.large
 
@@ -193,7 +194,7 @@ class _Writer:
 
     def rate(self) -> Iterable[Block]:
         rates = [self.set(joint.variable.rate) for joint in self.d.chain.joints]
-        pose = self.n.pose.split("(", maxsplit=1)[0]
+        pose = self.pose_name
         terms = [rf"\frac{{\partial {pose}}}{{\partial {v}}} {r}" for v, r in zip(self.values, rates, strict=True)]
         yield Formula((self.n.pose_rate, " + ".join(terms) or "0"))
         for term, matrix in zip(terms, self.d.pose_rates, strict=True):
@@ -201,15 +202,13 @@ class _Writer:
         yield from self.result(self.n.pose_rate, matrix=self.d.pose_rate, name=r"\dot{g}")
 
     def inverse(self) -> Iterable[Block]:
-        pose = self.n.pose.split("(", maxsplit=1)[0]
         general = r"\begin{bmatrix} R^{T} & -R^{T} p \\ 0 & 1 \end{bmatrix}"
         yield Paragraph(f"With $R$ and $p$ of the pose ({self.cite('inverse')}):")
-        yield from self.result(f"{pose}^{{-1}}", general, matrix=self.d.inverse, name="i")
+        yield from self.result(f"{self.pose_name}^{{-1}}", general, matrix=self.d.inverse, name="i")
 
     def velocity_matrix(self) -> Iterable[Block]:
-        pose = self.n.pose.split("(", maxsplit=1)[0]
         yield Paragraph(f"The product of (f) and (e) ({self.cite('velocity')}):")
-        head = (self.n.body_velocity_hat, f"{pose}^{{-1}} {self.n.pose_rate}")
+        head = (self.n.body_velocity_hat, f"{self.pose_name}^{{-1}} {self.n.pose_rate}")
         if self.small and not self.set.is_wide(self.d.pose_rate) and not self.set.is_wide(self.d.inverse):
             yield Formula((*head, f"{self.set.matrix(self.d.inverse)} {self.set.matrix(self.d.pose_rate)}"))
         yield from self.result(*head, matrix=self.d.body_hat, name=r"\hat{v}")
@@ -279,11 +278,9 @@ class _Writer:
         hybrid = self.n.rows(self.d.jacobian("hybrid"))
         yield from self.result(self.n.hybrid, f"{turn} {self.n.body}", matrix=hybrid, name="H")
         if self.small:
-            pose = self.n.pose.split("(", maxsplit=1)[0]
-            yield Paragraph(
-                f"The adjoint of the pose carries the body Jacobian to the spatial one ({self.cite('adjoint')}):"
-            )
-            name = rf"\mathrm{{Ad}}_{{{pose}}}"
+            carries = "The adjoint of the pose carries the body Jacobian to the spatial one"
+            yield Paragraph(f"{carries} ({self.cite('adjoint')}):")
+            name = rf"\mathrm{{Ad}}_{{{self.pose_name}}}"
             yield Formula((self.n.spatial, f"{name} {self.n.body}"))
             yield from self.result(name, self.n.adjoint, matrix=self.n.both(self.d.adjoint), name="a")
 
