@@ -1,5 +1,7 @@
 """``pinscrew derive``: what it prints, writes and refuses."""
 
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +75,29 @@ def test_bad_input(arguments: list[str], code: str) -> None:
     done = run(*arguments)
     assert isinstance(done.exception, PinscrewError)
     assert done.exception.code == code
+
+
+def test_without_sympy() -> None:
+    """One clear error; and nothing else of pinscrew needs it."""
+    program = """
+import sys
+sys.modules["sympy"] = None
+import importlib.util
+found = importlib.util.find_spec
+importlib.util.find_spec = lambda name, *more: None if name == "sympy" else found(name, *more)
+import pinscrew, pinscrew.cli
+try:
+    pinscrew.derive
+except pinscrew.PinscrewError as error:
+    print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout == 'sympy is not installed; install it with: pip install "pinscrew[derive]"\n', done.stderr
+
+
+def test_import_is_light() -> None:
+    program = "import pinscrew.cli, sys; sys.exit('sympy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program]).returncode == 0
 
 
 @pytest.mark.parametrize("value", ["a", "=1", "a=b"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pinscrew.cli import arguments, output
-from pinscrew.errors import MissingExtraError
 
 if TYPE_CHECKING:
     from pinscrew.derivation.derivation import Derivation
@@ -95,8 +93,6 @@ def command(words: tuple[str, ...], form: str, target: Path | None, errata: bool
       pinscrew derive planar_rrr --part i --convention lynch-park
       pinscrew derive path/to/arm.urdf --symbols --code c --kind hybrid
     """
-    if importlib.util.find_spec("sympy") is None:
-        raise MissingExtraError("sympy is not installed", "derive")
     text, ok = _errata(words, form) if errata else _report(words, form, **options)
     if target is None:
         click.echo(text, nl=not text.endswith("\n"))

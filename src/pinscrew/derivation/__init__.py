@@ -5,3 +5,10 @@ screws and a home pose, `trig` multiplies matrices in a normal form in which equ
 forms every item of the coursework, `factoring` writes entries as a person would, `proof` asks both engines, and the
 modules of reports write it all down.
 """
+
+from importlib.util import find_spec
+
+from pinscrew.errors import MissingExtraError
+
+if find_spec("sympy") is None:
+    raise MissingExtraError("sympy is not installed", "derive")

@@ -90,6 +90,7 @@ class Derivation:
     solution: solution.Solution = field(init=False)
     atoms: Atoms = field(init=False)
     _factoring: Factoring = field(init=False)
+    _columns: dict[str, sp.ImmutableMatrix] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         labels = {variable.symbol: variable.label for variable in self.variables}
@@ -185,11 +186,10 @@ class Derivation:
 
     def columns(self, kind: KindLike) -> sp.ImmutableMatrix:
         """The Jacobian's columns for each joint that moves the frame, as if none followed another; shape (6, n)."""
-        return self._columns[jacobian_kind(kind)]
-
-    @cached_property
-    def _columns(self) -> Mapping[str, sp.ImmutableMatrix]:
-        return _Lazy(lambda kind: self.write(getattr(self.solution, kind)))
+        kind = jacobian_kind(kind)
+        if kind not in self._columns:
+            self._columns[kind] = self.write(getattr(self.solution, kind))
+        return self._columns[kind]
 
     def jacobian(self, kind: KindLike) -> sp.ImmutableMatrix:
         """A Jacobian: a column for each of `coordinates`, shape (6, m).
@@ -197,13 +197,6 @@ class Derivation:
         Where joints follow others, a coordinate's column is the sum of its joints' `columns`, each times its
         multiplier, with the joints' values put in terms of the coordinates by `in_coordinates`.
         """
-        return self._jacobians[jacobian_kind(kind)]
-
-    @cached_property
-    def _jacobians(self) -> Mapping[str, sp.ImmutableMatrix]:
-        return _Lazy(self._folded)
-
-    def _folded(self, kind: str) -> sp.ImmutableMatrix:
         columns = self.columns(kind)
         if not self.follows:
             return columns
@@ -289,15 +282,3 @@ class Derivation:
         """A matrix in normal form as one of expressions."""
         rows, columns = elements.shape
         return sp.ImmutableMatrix(rows, columns, [self._factoring.expression(e) for e in np.ravel(elements)])
-
-
-class _Lazy(dict[str, sp.ImmutableMatrix]):
-    """Values made by a function of the key when they are first asked for."""
-
-    def __init__(self, make: Any) -> None:
-        super().__init__()
-        self._make = make
-
-    def __missing__(self, key: str) -> sp.ImmutableMatrix:
-        self[key] = self._make(key)
-        return self[key]
