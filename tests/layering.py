@@ -12,6 +12,7 @@ SOURCE = Path(__file__).resolve().parents[1] / "src"
 
 LAYERS = {
     "errors": 0,
+    "words": 0,
     "error_codes": 0,
     "typing": 0,
     "lie": 0,
@@ -32,6 +33,7 @@ LAYERS = {
 """The layer of each module or package directly below ``pinscrew``."""
 
 WITHIN_LAYER: dict[str, set[str]] = {
+    "errors": {"words"},
     "typing": {"errors"},
     "lie": {"errors", "typing"},
     "screw": {"errors", "typing", "lie"},

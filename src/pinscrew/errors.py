@@ -9,6 +9,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
+from pinscrew.words import brief, one_line
+
 __all__ = [
     "AmbiguousTipError",
     "DescriptionError",
@@ -25,6 +27,8 @@ __all__ = [
 
 _E = TypeVar("_E", bound=Exception)
 
+LONGEST: Final = 1200
+"""Characters of what is wrong, and of the remedy, in a message."""
 MOST_NAMES: Final = 40
 """Names that a message lists; ``known`` has them all."""
 
@@ -44,8 +48,9 @@ class PinscrewError(Exception):
         self.what = what
         self.where = where
         self.remedy = remedy
-        message = f"{where}: {what}" if where else what
-        super().__init__(f"{message}; {remedy}" if remedy else message)
+        # Names and paths may hold anything, at any length; the attributes keep them as they are.
+        message = f"{brief(where)}: {brief(what, LONGEST)}" if where else brief(what, LONGEST)
+        super().__init__(one_line(f"{message}; {brief(remedy, LONGEST)}" if remedy else message))
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Subclasses take other arguments than Exception keeps, so pickle must not call them to copy an error.

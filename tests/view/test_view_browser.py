@@ -87,7 +87,7 @@ def check(page: Any, robot: Robot, tip: str, q: FloatArray) -> None:
         assert abs(shown - engines[1].jacobian(q, tip, kind)).max(initial=0.0) <= half_digit
 
 
-@pytest.mark.parametrize("name", [*ARMS, "panda"])
+@pytest.mark.parametrize("name", [*ARMS, pytest.param("panda", marks=pytest.mark.slow)])
 def test_a_slider_moves_the_arm_as_both_engines_say(name: str, open_page: Open) -> None:
     model = model_of(name)
     robot = model.robot
@@ -282,6 +282,7 @@ def test_a_page_sees_that_python_has_gone_and_works_on(open_page: Open) -> None:
     check(page, model.robot, model.tip, np.array([0.5, 0.0]))
 
 
+@pytest.mark.slow
 def test_the_whole_robot_is_in_sight(open_page: Open, tmp_path: Path) -> None:
     for name in ARMS:
         page = open_page(saved(model_of(name), tmp_path), offline=True)

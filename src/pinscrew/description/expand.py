@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from pinscrew.description._words import brief, one_line
 from pinscrew.description.packages import Packages
 from pinscrew.errors import PinscrewWarning, XacroError
+from pinscrew.words import brief, one_line
 
 __all__ = ["MEMORY", "SECONDS", "expand", "is_xacro"]
 

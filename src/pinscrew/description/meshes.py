@@ -6,9 +6,9 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from pinscrew.description import markup
-from pinscrew.description._words import brief
 from pinscrew.description.packages import Packages, is_file
 from pinscrew.errors import DescriptionError
+from pinscrew.words import brief
 
 __all__ = ["mesh_file"]
 

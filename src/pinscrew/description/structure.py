@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from pinscrew.description._words import brief
 from pinscrew.description.markup import Element
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES
 from pinscrew.errors import DescriptionError, PinscrewWarning, UnsupportedError
+from pinscrew.words import brief
 
 __all__ = ["MIN_AXIS", "Checked", "check"]
 

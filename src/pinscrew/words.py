@@ -1,4 +1,4 @@
-"""What a file or a macro says, made fit for one line of a message."""
+"""What a file, a macro or a caller says, made fit for one line of a message."""
 
 from __future__ import annotations
 
