@@ -130,7 +130,7 @@ def main() -> None:
     patience: float = parser.parse_args().patience
     print(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, sympy {sp.__version__}")
     ps.derive(ps.load("one_joint")).prove(1)  # imports are not measured
-    print("pose, spatial and body Jacobian in symbols, against sympy.simplify on the same product:")
+    print("pose, spatial and body Jacobian in symbols, against sympy.simplify on the same product:", flush=True)
     arms = {
         "ur5": (ps.load("ur5_robot"), "tool0"),
         "puma": (puma(), None),
@@ -144,7 +144,7 @@ def main() -> None:
         print(f"(goal: {GOALS[name]:.0f} s) to {more}{slow:.0f} s; operations", end=" ")
         theirs = [*map(str, left), *["not finished"] * (3 - len(left))]
         for what, mine, other in zip(("pose", "spatial", "body"), counts, theirs, strict=True):
-            print(f"{what} {mine} to {other}", end="\n" if what == "body" else ", ")
+            print(f"{what} {mine} to {other}", end="\n" if what == "body" else ", ", flush=True)
     print("three-joint arms, all of (a) to (k) and the report (goal: 2 s); with 100 samples of the proof:")
     for name in ("spherical_rrp", "scara_rrp", "stanford_rrp", "planar_rrr", "anthropomorphic_rrr"):
         seconds, proved = everything(name)
