@@ -1,0 +1,182 @@
+"""What was done to a joint beside its placement: type, limits, mimic, and where it hangs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from pinscrew.changes.geometry import Near, kind
+from pinscrew.changes.matching import Step
+from pinscrew.changes.model import Change
+from pinscrew.changes.placement import Placement
+from pinscrew.changes.wording import degrees, interval, millimetres, number
+from pinscrew.description.model import Description, Joint
+from pinscrew.robot import Robot
+
+__all__ = ["Driven", "attributes", "driven", "opposite", "renames"]
+
+
+@dataclass(frozen=True)
+class Driven:
+    """What drives a joint: ``multiplier`` times the coordinate of ``master``, and ``offset``."""
+
+    master: str
+    multiplier: float
+    offset: float
+
+
+def driven(robot: Robot) -> dict[str, Driven]:
+    """What drives each joint that moves, through however many mimics."""
+    joints = {joint.name: joint for joint in robot.description.joints}
+    found = {}
+    for motion in robot.mechanism.motions:
+        joint, offset, multiplier = motion.joint, 0.0, 1.0
+        while joint.mimic is not None:
+            offset += multiplier * joint.mimic.offset
+            multiplier *= joint.mimic.multiplier
+            joint = joints[joint.mimic.joint]
+        found[motion.joint.name] = Driven(joint.name, multiplier, offset)
+    return found
+
+
+def opposite(a: Driven | None, b: Driven | None, near: Near) -> bool:
+    """Whether two joints are driven by opposite values."""
+    if a is None or b is None or a.multiplier * b.multiplier >= 0.0:
+        return False
+    return abs(a.multiplier + b.multiplier) <= near.angle and abs(a.offset + b.offset) <= near.angle
+
+
+def attributes(
+    step: Step,
+    placed: Placement,
+    names: Mapping[str, str],
+    drives: tuple[Mapping[str, Driven], Mapping[str, Driven]],
+    near: Near,
+) -> tuple[list[Change], list[Change]]:
+    """Changes and notes about a joint that both robots have; ``names`` are b's names of joints by those in a."""
+    joint, now = step.a, step.b
+    if joint is None or now is None:
+        return [], []
+    changes, notes = list(placed.changes), list(placed.notes)
+    if step.elsewhere:
+        changes = [_rehung(step, joint, now, changes)]
+    if joint.type != now.type and kind(joint) == kind(now):
+        words = f"it is {now.type} instead of {joint.type}, {'with' if now.type == 'revolute' else 'without'} limits"
+        changes.append(_change("type", step, words))
+    elif joint.type == now.type:
+        changes += _limits(step, joint, now, placed, near)
+    notes += _rates(step, joint, now)
+    mimic = _mimic(step, joint, now, placed, names, drives, near)
+    if mimic is not None and mimic.kind == "mimic-re-expressed":
+        # Axis or origin make up for the other numbers.
+        changes = [change for change in changes if change.kind != "zero-shifted"]
+        notes.append(mimic)
+    elif mimic is not None:
+        changes.append(mimic)
+    return changes, notes
+
+
+def _change(word: str, step: Step, words: str, length: float = 0.0, angle: float = 0.0) -> Change:
+    now = step.named
+    return Change(word, now.name, now.child, f"joint {now.name!r}: {words}", length, angle, now.line)
+
+
+def _rehung(step: Step, joint: Joint, now: Joint, placed: list[Change]) -> Change:
+    """A joint that hangs from another link; how it stands now is part of that."""
+    words = f"it hangs from link {now.parent!r} instead of {joint.parent!r}"
+    for change in placed:
+        how = change.words.partition(": ")[2]
+        return _change("parent", step, f"{words}; at zero, {how}", change.length, change.angle)
+    return _change("parent", step, f"{words}; at zero, it stands where it stood")
+
+
+def _limits(step: Step, joint: Joint, now: Joint, placed: Placement, near: Near) -> Iterator[Change]:
+    sliding = joint.type == "prismatic"
+    tolerance = near.length if sliding else near.angle
+    old, new = (joint.limits.lower, joint.limits.upper), (now.limits.lower, now.limits.upper)
+    apart = [0.0 if x == y else abs(x - y) for x, y in zip(old, new, strict=True)]
+    turned_round = placed.reversed and new == (-old[1], -old[0])
+    if max(apart) <= tolerance or (turned_round and not placed.changes):
+        return
+    word = "changed"
+    if new[0] <= old[0] and old[1] <= new[1]:
+        word = "widened"
+    elif old[0] <= new[0] and new[1] <= old[1]:
+        word = "narrowed"
+    told = [interval(*ends, sliding=sliding) for ends in (old, new)]
+    words = f"its limits are {word} from {told[0]} to {told[1]}"
+    if turned_round:
+        words += ", as its direction is reversed"
+    size = max(apart) if math.isfinite(max(apart)) else 0.0
+    yield _change("limits", step, words, *((size, 0.0) if sliding else (0.0, size)))
+
+
+def _rates(step: Step, joint: Joint, now: Joint) -> Iterator[Change]:
+    """Limits that do not restrict where the joint can be."""
+    for word in ("velocity", "effort"):
+        old, new = getattr(joint.limits, word), getattr(now.limits, word)
+        if old != new:
+            yield _change(word, step, f"its limit of {word} is {number(new)} instead of {number(old)}")
+
+
+def _mimic(
+    step: Step,
+    joint: Joint,
+    now: Joint,
+    placed: Placement,
+    names: Mapping[str, str],
+    drives: tuple[Mapping[str, Driven], Mapping[str, Driven]],
+    near: Near,
+) -> Change | None:
+    old, new = drives[0].get(joint.name), drives[1].get(now.name)
+    if old is None or new is None or (joint.mimic is None and now.mimic is None):
+        return None
+    if joint.mimic is None or now.mimic is None:
+        what = f"follows {now.mimic.joint!r}" if now.mimic else "has a coordinate of its own"
+        instead = f"following {joint.mimic.joint!r}" if joint.mimic else "having a coordinate of its own"
+        return _change("mimic", step, f"it {what} instead of {instead}")
+    direct = (names.get(joint.mimic.joint), joint.mimic.multiplier, joint.mimic.offset)
+    if _alike(direct, (now.mimic.joint, now.mimic.multiplier, now.mimic.offset), 0.0, near):
+        return None
+    master, sign = names.get(old.master), -1.0 if placed.reversed else 1.0
+    before, after = (master, old.multiplier, old.offset), (new.master, sign * new.multiplier, sign * new.offset)
+    all_in_all = _alike(before, after, placed.zero, near)
+    told = f"{_law(joint)} to {_law(now)}"
+    if all_in_all:
+        return _change("mimic-re-expressed", step, f"its mimic goes from {told}; the motion is the same")
+    far = abs(now.mimic.offset - joint.mimic.offset)
+    size = (far, 0.0) if now.type == "prismatic" else (0.0, far)
+    return _change("mimic", step, f"its mimic goes from {told}", *size)
+
+
+def _alike(a: tuple[str | None, float, float], b: tuple[str, float, float], zero: float, near: Near) -> bool:
+    return a[0] == b[0] and abs(a[1] - b[1]) <= near.angle and abs(b[2] + zero - a[2]) <= near.angle
+
+
+def _law(joint: Joint) -> str:
+    """What a mimic joint does, such as ``2 × 'drive' + 5°``."""
+    if joint.mimic is None:
+        return ""
+    offset = millimetres(joint.mimic.offset) if joint.type == "prismatic" else degrees(joint.mimic.offset)
+    return f"{number(joint.mimic.multiplier)} × {joint.mimic.joint!r}{f' + {offset}' * bool(joint.mimic.offset)}"
+
+
+def renames(step: Step, a: Description, b: Description) -> tuple[list[Change], list[Change]]:
+    """Changes and notes about the names of a joint and its link that both robots have."""
+    joint, now = step.a, step.b
+    changes: list[Change] = []
+    notes: list[Change] = []
+    if joint is None or now is None:
+        return changes, notes
+    if joint.name != now.name:
+        others = {j.name for j in a.joints} & {j.name for j in b.joints}
+        if now.name in others or joint.name in others:
+            words = f"it was called {joint.name!r}, and that name or its own is now another joint's"
+            changes.append(_change("names-swapped", step, words))
+        else:
+            notes.append(_change("joint-renamed", step, f"it was called {joint.name!r}"))
+    if joint.child != now.child and joint.child not in b.links and now.child not in a.links:
+        words = f"link {now.child!r} was called {joint.child!r}"
+        notes.append(Change("link-renamed", now.name, now.child, words, line=now.line))
+    return changes, notes

@@ -1,0 +1,100 @@
+"""How far apart the tips of two robots come at equal coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from pinscrew.changes.geometry import turned
+from pinscrew.changes.model import Displacement, Place
+from pinscrew.engines.poe import PoE
+from pinscrew.robot import Robot
+from pinscrew.typing import FloatArray
+from pinscrew.verification.configurations import configurations, effective_limits
+
+__all__ = ["columns", "largest"]
+
+CONFIGURATIONS: Final = 2000
+POSES: Final = 20000
+"""Poses that are computed of each robot, at the most: fewer configurations for many tips."""
+FEWEST: Final = 100
+TURNING: Final = {"revolute", "continuous"}
+"""Types whose coordinates are the same."""
+COUNTS: Final = {"floating": 7, "planar": 3}
+"""How many coordinates a joint has; others have one."""
+
+
+def columns(a: Robot, b: Robot, joints: Mapping[str, str]) -> list[int] | None:
+    """Where in b's coordinates each of a's is, or None if the two do not have the same."""
+    if len(a.joint_names) != len(b.joint_names) or a.nq != b.nq:
+        return None
+    types = [{joint.name: joint.type for joint in robot.description.joints} for robot in (a, b)]
+    found: list[int] = []
+    for name in a.joint_names:
+        # Names that were swapped mean other coordinates now.
+        other = name if name in b.mechanism.coordinates.q else joints.get(name, "")
+        same = types[0][name] == types[1].get(other) or {types[0][name], types[1].get(other)} == TURNING
+        if other not in b.mechanism.coordinates.q or not same:
+            return None
+        count = COUNTS.get(types[0][name], 1)
+        start = b.mechanism.coordinates.q[other]
+        found += range(start, start + count)
+    return found if len(set(found)) == len(found) else None
+
+
+def largest(a: Robot, b: Robot, columns: Sequence[int], tips: Sequence[tuple[str, str]]) -> Displacement | None:
+    """The largest displacement of the tips over the limits that both robots have in common.
+
+    At zero, the limits' corners and 2000 random configurations (fewer for many tips); always the same ones.
+
+    Args:
+        a: the first robot.
+        b: the second.
+        columns: where in b's coordinates each of a's is.
+        tips: names of tip frames, in a and in b.
+    """
+    if not tips:
+        return None
+    samples = max(FEWEST, min(CONFIGURATIONS, POSES // len(tips)))
+    drawn = configurations(a, samples, seed=0)
+    q_a = _common(a, b, columns, drawn.q[: drawn.inside])
+    q_b = np.empty_like(q_a)
+    q_b[:, list(columns)] = q_a
+    engines = PoE(a), PoE(b)
+    best: list[tuple[float, str, int]] = [(-1.0, "", 0)] * 2
+    for tip_a, tip_b in tips:
+        T_a, T_b = engines[0].fk(q_a, tip_a), engines[1].fk(q_b, tip_b)
+        errors = _distance(T_a, T_b)
+        for i, error in enumerate(errors):
+            at = int(error.argmax())
+            if error[at] > best[i][0]:
+                best[i] = (float(error[at]), tip_a, at)
+    places = [Place(tip, _q(a, q_a[at], tip)) for _, tip, at in best]
+    return Displacement(best[0][0], places[0], best[1][0], places[1])
+
+
+def _q(robot: Robot, q: FloatArray, tip: str) -> dict[str, float]:
+    """The coordinates that move a tip, by their names."""
+    found = {}
+    for motion in (robot.mechanism.motions[i] for i in robot.motions_above(tip)):
+        count = COUNTS.get(motion.joint.type, 1)
+        columns = range(motion.q, motion.q + count)
+        found.update({robot.coordinate_names[i]: float(q[i]) for i in columns})
+    return found
+
+
+def _common(a: Robot, b: Robot, columns: Sequence[int], q: FloatArray) -> FloatArray:
+    """Configurations of a, brought within b's limits too where the two overlap."""
+    limits_a, limits_b = effective_limits(a), effective_limits(b)[list(columns)]
+    lower, upper = np.maximum(limits_a[:, 0], limits_b[:, 0]), np.minimum(limits_a[:, 1], limits_b[:, 1])
+    overlap = lower <= upper
+    lower, upper = np.where(overlap, lower, limits_a[:, 0]), np.where(overlap, upper, limits_a[:, 1])
+    bounded = np.isfinite(a.limits).any(axis=1)
+    return np.where(bounded, np.clip(q, lower, upper), q)
+
+
+def _distance(T_a: FloatArray, T_b: FloatArray) -> tuple[FloatArray, FloatArray]:
+    lengths: FloatArray = np.linalg.norm(T_b[:, :3, 3] - T_a[:, :3, 3], axis=1)
+    return lengths, turned(T_a[:, :3, :3], T_b[:, :3, :3])

@@ -1,0 +1,113 @@
+"""Changes for people and programs: text, JSON, Markdown."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Final
+
+from pinscrew.changes.model import Change, Changes, Place
+from pinscrew.changes.wording import degrees, millimetres, number
+
+__all__ = ["SCHEMA", "summary", "to_json", "to_markdown", "to_text"]
+
+SCHEMA: Final = "pinscrew.diff/1"
+ROUNDING: Final = 1e-13
+"""A displacement (m or rad) of tips that is told as none."""
+
+
+def summary(changes: Changes) -> str:
+    """One line: what was compared, and the outcome."""
+    count = len(changes.changes)
+    outcome = "the motion is the same" if changes.same else f"{count} change{'s' * (count > 1)}"
+    notes = len(changes.notes)
+    remarked = f", {notes} note{'s' * (notes > 1)}" if notes else ""
+    return f"{_line(changes.a)} → {_line(changes.b)}: {outcome}{remarked}"
+
+
+def to_text(changes: Changes) -> str:
+    """The summary, and a line for each change and note."""
+    lines = [summary(changes)]
+    lines += [f"  {_told(change)}" for change in changes.changes]
+    lines += [f"  note: {_told(note)}" for note in changes.notes]
+    return "\n".join([*lines, *(f"  {line}" for line in _apart(changes))])
+
+
+def to_json(changes: Changes) -> str:
+    """The changes as JSON, schema `SCHEMA`."""
+    found = changes.displacement
+    document = {
+        "schema": SCHEMA,
+        "a": changes.a,
+        "b": changes.b,
+        "same": changes.same,
+        "changes": [_as_data(change) for change in changes.changes],
+        "notes": [_as_data(note) for note in changes.notes],
+        "displacement": found
+        and {
+            "length": found.length,
+            "length_at": {"frame": found.length_at.frame, "q": dict(found.length_at.q)},
+            "angle": found.angle,
+            "angle_at": {"frame": found.angle_at.frame, "q": dict(found.angle_at.q)},
+        },
+    }
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _as_data(change: Change) -> dict[str, Any]:
+    return {
+        "kind": change.kind,
+        "joint": change.joint,
+        "link": change.link,
+        "words": change.words,
+        "length": change.length,
+        "angle": change.angle,
+        "line": change.line,
+    }
+
+
+def to_markdown(changes: Changes) -> str:
+    """The changes as Markdown: a heading, and a list of changes and one of notes."""
+    lines = [f"### {_plain(summary(changes))}", ""]
+    lines += [f"- **{change.kind}**: {_plain(_told(change))}" for change in changes.changes]
+    lines += [f"- {_plain(line)}" for line in _apart(changes)]
+    if changes.notes:
+        lines += ["", "Without a change of the motion:", ""]
+        lines += [f"- {note.kind}: {_plain(_told(note))}" for note in changes.notes]
+    return "\n".join([*lines, ""])
+
+
+def _told(change: Change) -> str:
+    where = "" if change.line is None else f" (line {change.line})"
+    return f"{_line(change.words)}{where}"
+
+
+def _apart(changes: Changes) -> list[str]:
+    """How far apart the tips come, if anything changed."""
+    found = changes.displacement
+    if changes.same:
+        return []
+    if found is None:
+        return ["the two do not have the same coordinates and tips, so displacements can't be given"]
+    if found.length <= ROUNDING and found.angle <= ROUNDING:
+        return ["at equal coordinates the tips stand where they stood"]
+    lines = [f"tips come apart by {millimetres(found.length)} at most: {_place(found.length_at)}"]
+    if found.angle > ROUNDING:
+        lines.append(f"tips are turned by {degrees(found.angle)} at most: {_place(found.angle_at)}")
+    return lines
+
+
+def _place(place: Place) -> str:
+    q = ", ".join(f"{name}={number(value)}" for name, value in place.q.items())
+    return _line(f"{place.frame!r} at {q}" if q else repr(place.frame))
+
+
+def _line(text: str) -> str:
+    """Text without line breaks; names may hold them."""
+    return " ".join(text.split())
+
+
+def _plain(text: str) -> str:
+    """Text with what Markdown would take as markup made plain."""
+    for mark in "\\`*_|<>[]":
+        text = text.replace(mark, f"\\{mark}")
+    return text

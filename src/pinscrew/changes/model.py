@@ -1,0 +1,103 @@
+"""What `pinscrew.diff` answers: changes of the motion, notes on the rest, and how far the tips are apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+__all__ = ["Change", "Changes", "Displacement", "Place"]
+
+
+@dataclass(frozen=True)
+class Change:
+    """One difference between two descriptions.
+
+    Attributes:
+        kind: stable word for the kind of difference, such as ``"axis-turned"``; docs/diff.md lists them.
+        joint: the joint that was edited, by its name in b (in a, if b has it no more); ``""`` for none.
+        link: the link that it is about, likewise; ``""`` for none.
+        words: one sentence, in mm and degrees.
+        length: how far something moved (m); 0 where nothing did.
+        angle: how far something turned (rad); 0 where nothing did.
+        line: line of the joint in b's file (after expansion, for xacro), or None where b does not have it.
+    """
+
+    kind: str
+    joint: str
+    link: str
+    words: str
+    length: float = 0.0
+    angle: float = 0.0
+    line: int | None = None
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where two robots are farthest apart.
+
+    Attributes:
+        frame: the tip frame, by its name in a.
+        q: the coordinates that move it, by a's names (rad and m).
+    """
+
+    frame: str
+    q: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Displacement:
+    """How far apart the tips of two robots are at equal coordinates, at the most, over sampled configurations.
+
+    Attributes:
+        length: distance of the tips' origins (m).
+        length_at: where that is.
+        angle: angle between the tips' frames (rad).
+        angle_at: where that is.
+    """
+
+    length: float
+    length_at: Place
+    angle: float
+    angle_at: Place
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What `diff` found between two robots. ``print`` shows it as text.
+
+    Attributes:
+        a: name of the first robot.
+        b: name of the second.
+        changes: what changes the motion, its coordinates or their limits, down the tree.
+        notes: what changed in the file although the motion is identical.
+        displacement: how far apart the tips come; None where the two do not have the same coordinates, or no
+            common tip.
+    """
+
+    a: str
+    b: str
+    changes: tuple[Change, ...]
+    notes: tuple[Change, ...]
+    displacement: Displacement | None
+
+    @property
+    def same(self) -> bool:
+        """Whether both robots move alike: no changes."""
+        return not self.changes
+
+    def __str__(self) -> str:
+        from pinscrew.changes import formats
+
+        return formats.to_text(self)
+
+    def to_json(self) -> str:
+        """The changes as JSON, schema ``pinscrew.diff/1``."""
+        from pinscrew.changes import formats
+
+        return formats.to_json(self)
+
+    def to_markdown(self) -> str:
+        """The changes as Markdown: a heading and lists."""
+        from pinscrew.changes import formats
+
+        return formats.to_markdown(self)

@@ -1,0 +1,91 @@
+"""``pinscrew diff``: what an edit to a robot's description changed."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from pinscrew.cli import arguments, output
+
+if TYPE_CHECKING:
+    from pinscrew.robot import Robot
+
+__all__ = ["command"]
+
+
+@click.command(name="diff", short_help="Say what an edit changed in a robot's motion.")
+@arguments.robot_argument()
+@click.option(
+    "--tolerance-mm",
+    default=1e-6,
+    show_default=True,
+    type=click.FloatRange(0),
+    help="Largest displacement that counts as none.",
+)
+@click.option(
+    "--tolerance-deg",
+    type=click.FloatRange(0),
+    help="Largest angle that counts as none; by default 5.7e-8, which is 1e-9 rad.",
+)
+@arguments.json_option
+@click.option("--markdown", type=click.Path(dir_okay=False, path_type=Path), help="Write Markdown to this file.")
+def command(
+    words: tuple[str, ...],
+    tolerance_mm: float,
+    tolerance_deg: float | None,
+    as_json: bool,
+    markdown: Path | None,
+) -> None:
+    """Compare the motion of two robots: screws, limits, mimics and the poses of tip frames.
+
+    Each is a robot, a lock file (.lock), or a file in a git revision. What moves neither joints nor tips is a note:
+    frames chosen anew, names, order. Exit status: 0 if the motion is the same, 1 if it changed, 2 for an error.
+
+    \b
+      pinscrew diff HEAD~1:arm.urdf arm.urdf
+      pinscrew diff main:./arm.urdf.xacro arm.urdf.xacro --tolerance-mm 0.01
+      pinscrew diff scara scara l1:=0.4
+    """
+    from pinscrew.changes.run import diff
+
+    named = arguments.robots(words)
+    if len(named) != 2:
+        raise click.UsageError(f"expected two robots, but got {len(named)}")
+    a, b = (_load(one) for one in named)
+    angle = {} if tolerance_deg is None else {"angle": math.radians(tolerance_deg)}
+    changes = replace(diff(a, b, length=tolerance_mm * 1e-3, **angle), a=_called(named[0]), b=_called(named[1]))
+    if markdown is not None:
+        output.write_file(markdown, changes.to_markdown())
+    click.echo(changes.to_json() if as_json else str(changes))
+    if not changes.same:
+        sys.exit(1)
+
+
+def _called(named: arguments.Named) -> str:
+    """A robot as the command line has it."""
+    return " ".join([named.source, *(f"{name}:={value}" for name, value in named.arguments.items())])
+
+
+def _load(named: arguments.Named) -> Robot:
+    """The robot of a name, a file, a lock file or a file in a revision."""
+    from pinscrew.changes import revision
+
+    if not revision.is_revision(named.source):
+        return _read(named.source, named)
+    with revision.taken_out(named.source) as path:
+        return _read(str(path), named)
+
+
+def _read(source: str, named: arguments.Named) -> Robot:
+    if not source.endswith(".lock"):
+        return replace(named, source=source).load()
+    from pinscrew.lockfile import read
+
+    if named.arguments:
+        raise click.UsageError(f"the lock file {named.source} takes no arguments")
+    return read(Path(source))

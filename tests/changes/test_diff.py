@@ -1,0 +1,228 @@
+"""`ps.diff` on its own: sentences, formats, floating joints, robots that have little in common."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from diff_edits import Edited, pose, turn
+
+import pinscrew as ps
+import urdfs
+from pinscrew.changes import walk
+from pinscrew.description.catalogue import bundled
+from pinscrew.errors import InputError
+from pinscrew.robot import Robot
+
+ARM = urdfs.robot(
+    urdfs.joint("j1", "revolute", "base", "l1", xyz="0 0 0.3"),
+    urdfs.joint("j2", "revolute", "l1", "l2", xyz="0 0 0.2", axis="0 1 0"),
+    urdfs.joint("slide", "prismatic", "l2", "l3", xyz="0.4 0 0", axis="1 0 0", limits=(0.0, 0.5)),
+    urdfs.joint("j4", "revolute", "l3", "l4", xyz="0.2 0 0", axis="0 1 0"),
+    urdfs.joint("mount", "fixed", "l4", "tool", xyz="0.1 0 0"),
+    links="base l1 l2 l3 l4 tool",
+)
+
+
+def edited(*edits: tuple[str, ...], text: str = ARM) -> Robot:
+    """The arm with parts of its text replaced."""
+    for old, new in edits:
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return urdfs.load(text)
+
+
+def said(b: Robot) -> list[str]:
+    return [change.words for change in ps.diff(urdfs.load(ARM), b).changes]
+
+
+@pytest.mark.parametrize("name", [entry.name for entry in bundled()])
+def test_a_robot_is_the_same_as_itself(name: str) -> None:
+    found = ps.diff(ps.load(name), ps.load(name))
+    assert (found.same, found.changes, found.notes) == (True, (), ())
+    assert found.displacement is not None
+    assert found.displacement.length == found.displacement.angle == 0.0
+
+
+# ------------------------------------------------------------------------------------------- sentences
+
+
+def test_the_sentences() -> None:
+    moved = edited(('xyz="0 0 0.2" rpy="0 0 0"', 'xyz="0.004 0 0.2" rpy="0 0 0"'))
+    assert said(moved) == [
+        "joint 'j2': its axis is moved by 4 mm along x, in the frame of 'l1'; what follows goes along"
+    ]
+    turned = edited(('xyz="0 0 0.2" rpy="0 0 0"', f'xyz="0 0 0.2" rpy="{math.radians(-0.5)} 0 0"'))
+    assert said(turned) == [
+        "joint 'j2': its axis is turned by -0.5° about x, in the frame of 'l1'; what follows goes along"
+    ]
+    axis = edited(('xyz="0 0 0.2" rpy="0 0 0"/><axis xyz="0 1 0"/>', 'xyz="0 0 0.2" rpy="0 0 0"/><axis xyz="1 0 0"/>'))
+    assert said(axis) == ["joint 'j2': its axis is turned by -90° about z, in the frame of 'l1'; what follows stays"]
+    zero = edited(('xyz="0 0 0.3" rpy="0 0 0"', f'xyz="0 0 0.3" rpy="0 0 {math.radians(0.5)}"'))
+    assert said(zero) == ["joint 'j1': its zero is shifted by 0.5° about its axis"]
+    limits = edited(('lower="0.0" upper="0.5"', 'lower="-0.1" upper="0.5"'))
+    assert said(limits) == ["joint 'slide': its limits are widened from [0, 500] mm to [-100, 500] mm"]
+    tool = edited(('xyz="0.1 0 0" rpy="0 0 0"', f'xyz="0.103 0 0.004" rpy="0 0 {math.pi / 2}"'))
+    assert said(tool) == [
+        "fixed joint 'mount': tip frame 'tool' is turned by 90° about z and moved by (3, 0, 4) mm, in the frame of 'l4'"
+    ]
+    back = edited(('xyz="0 0 0.2" rpy="0 0 0"/><axis xyz="0 1 0"/>', 'xyz="0 0 0.2" rpy="0 0 0"/><axis xyz="0 -1 0"/>'))
+    assert said(back) == ["joint 'j2': its axis is reversed: its coordinate has the other sign; what follows stays"]
+    slide = edited(('name="slide" type="prismatic"', 'name="slide" type="revolute"'))
+    assert said(slide) == ["joint 'slide': it is revolute instead of prismatic"]
+
+
+def test_every_change_has_its_line_in_b() -> None:
+    text = ARM.replace("<joint", "\n<joint")
+    after = text.replace('xyz="0.4 0 0" rpy="0 0 0"', 'xyz="0.4 0 0.1" rpy="0 0 0"')
+    (change,) = ps.diff(urdfs.load(text), urdfs.load(after)).changes
+    assert (change.kind, change.joint, change.link, change.line) == ("link-moved", "slide", "l3", 4)
+    assert (change.length, change.angle) == pytest.approx((0.1, 0.0))
+    gone = ps.diff(urdfs.load(text), edited(text=single(text, "mount", "tool")))
+    assert [(c.kind, c.joint, c.line) for c in gone.changes] == [("tip-removed", "mount", None)]
+
+
+def single(text: str, joint: str, link: str) -> str:
+    """The text without a joint and its link."""
+    e = Edited(text)
+    e.remove(joint)
+    assert link not in e.text
+    return e.text
+
+
+def test_a_displacement_is_told_with_its_place() -> None:
+    b = edited(('xyz="0.1 0 0" rpy="0 0 0"', 'xyz="0.1 0 0.007" rpy="0 0 0"'))
+    found = ps.diff(urdfs.load(ARM), b).displacement
+    assert found is not None
+    assert found.length == pytest.approx(0.007)
+    assert found.length_at.frame == "tool"
+    a, place = urdfs.load(ARM), found.length_at
+    shift = [ps.PoE(robot).fk(robot.configuration(place.q), place.frame)[:3, 3] for robot in (a, b)]
+    assert np.linalg.norm(shift[0] - shift[1]) == pytest.approx(found.length)
+
+
+def test_the_largest_displacement_is_that_of_the_workspace() -> None:
+    """An axis turned about itself by δ moves the tip by 2 sin(δ/2) times its distance, at most drawn out."""
+    b = edited(('xyz="0 0 0.3" rpy="0 0 0"', 'xyz="0 0 0.3" rpy="0 0 0.01"'))
+    found = ps.diff(urdfs.load(ARM), b).displacement
+    assert found is not None
+    most = 2 * math.sin(0.005) * (0.4 + 0.5 + 0.2 + 0.1)
+    assert 0.95 * most < found.length <= most
+    assert found.angle == pytest.approx(0.01)
+
+
+def test_without_common_coordinates_there_is_no_displacement() -> None:
+    for change in (
+        ('name="j4" type="revolute"', 'name="j4" type="fixed"'),
+        ('"slide" type="prismatic"', '"slide" type="revolute"'),
+    ):
+        assert ps.diff(urdfs.load(ARM), edited(change)).displacement is None
+
+
+# ------------------------------------------------------------------------------------------- tolerances
+
+
+def test_tolerances() -> None:
+    a, b = urdfs.load(ARM), edited(('xyz="0 0 0.2" rpy="0 0 0"', 'xyz="0.001 0 0.2" rpy="1e-4 0 0"'))
+    assert not ps.diff(a, b).same
+    assert not ps.diff(a, b, length=2e-3).same
+    assert ps.diff(a, b, length=2e-3, angle=2e-4).same
+    assert not ps.diff(a, b, length=0.9e-3, angle=1.1e-4).same
+
+
+@pytest.mark.parametrize("bad", [-1.0, math.nan, math.inf])
+def test_bad_tolerances(bad: float) -> None:
+    with pytest.raises(InputError, match="is no tolerance; give 0 or a positive number"):
+        ps.diff(urdfs.load(ARM), urdfs.load(ARM), length=bad)
+
+
+# ---------------------------------------------------------------------------- planar and floating joints
+
+
+@pytest.mark.parametrize(("text", "joint"), [(urdfs.planar(), "table"), (urdfs.floating_middle(), "free")])
+def test_planar_and_floating_joints_have_a_frame(text: str, joint: str) -> None:
+    for size in (1e-6, 0.1):
+        e = Edited(text)
+        e.move(joint, pose(R=turn("z", size)))
+        (change,) = ps.diff(urdfs.load(text), urdfs.load(e.text)).changes
+        assert (change.kind, change.joint) == ("frame-moved", joint)
+        assert change.angle == pytest.approx(size)
+        e.compensate(joint, pose(R=turn("z", size)))
+        (change,) = ps.diff(urdfs.load(text), urdfs.load(e.text)).changes
+        assert (change.kind, change.joint) == ("frame-moved", joint)
+    assert ps.diff(urdfs.load(text), urdfs.load(text)).same
+
+
+def test_floating_base() -> None:
+    a, b = urdfs.load(ARM, floating_base=True), urdfs.load(ARM)
+    assert ps.diff(a, a).same
+    assert [(c.kind, c.joint) for c in ps.diff(b, a).changes] == [("joint-added", "root_joint")]
+    assert [(c.kind, c.joint) for c in ps.diff(a, b).changes] == [("joint-removed", "root_joint")]
+
+
+# ------------------------------------------------------------------------------------ little in common
+
+
+def test_any_two_robots() -> None:
+    texts = (ARM, urdfs.no_joints(), urdfs.only_fixed(), urdfs.tree(), urdfs.mimic_chain())
+    robots = [urdfs.load(text) for text in texts]
+    for i, a in enumerate(robots):
+        for j, b in enumerate(robots):
+            found = ps.diff(a, b)
+            assert found.same == (i == j or (i, j) == (1, 2)), "a fixed frame more moves nothing"
+            assert json.loads(found.to_json())["same"] == found.same
+            assert str(found).count("\n") >= len(found.changes)
+
+
+def test_long_chains() -> None:
+    def chain(n: int, rpy: str = "0 0 0") -> Robot:
+        joints = [urdfs.joint(f"j{i}", "revolute", f"l{i}", f"l{i + 1}", xyz="0.1 0 0", rpy=rpy) for i in range(n)]
+        return urdfs.load(urdfs.robot(*joints, links=" ".join(f"l{i}" for i in range(n + 1))))
+
+    long = chain(300)
+    assert ps.diff(long, long).same
+    assert {c.kind for c in ps.diff(chain(1), long).changes} == {"joint-added"}
+    assert {c.kind for c in ps.diff(long, chain(1)).changes} == {"joint-removed"}
+    assert len(ps.diff(long, chain(300, "0.01 0.02 0.03")).changes) == 300
+
+
+# --------------------------------------------------------------------------------------------- formats
+
+
+def test_json_and_markdown() -> None:
+    b = edited(('xyz="0.1 0 0" rpy="0 0 0"', 'xyz="0.1 0 0.007" rpy="0 0 0"'), ('name="small"', 'name="sm|all"'))
+    found = ps.diff(urdfs.load(ARM), b)
+    document = json.loads(found.to_json(), parse_constant=pytest.fail)
+    assert document["schema"] == "pinscrew.diff/1"
+    assert set(document) == {"schema", "a", "b", "same", "changes", "notes", "displacement"}
+    assert set(document["changes"][0]) == {"kind", "joint", "link", "words", "length", "angle", "line"}
+    assert document["displacement"]["length_at"]["frame"] == "tool"
+    assert document["notes"][0]["kind"] == "robot-renamed"
+    assert json.loads(ps.diff(b, b).to_json())["displacement"]["length"] == 0.0
+    lines = found.to_markdown().splitlines()
+    assert lines[0] == "### small → sm\\|all: 1 change, 1 note"
+    assert lines[2].startswith("- **tip-moved**: fixed joint 'mount'")
+    text = str(found).splitlines()
+    assert text[0] == "small → sm|all: 1 change, 1 note"
+    assert text[2] == "  note: the robot is called 'sm|all' instead of 'small'"
+    assert text[3].startswith("  tips come apart by 7 mm at most: 'tool' at j1=")
+
+
+# ---------------------------------------------------------------------------------- the check can fail
+
+
+def test_without_the_displacement_other_joints_are_blamed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the way down is for: if it carried nothing, everything below an edit would be called changed."""
+    b = edited(('xyz="0 0 0.3" rpy="0 0 0"', 'xyz="0.01 0 0.3" rpy="0 0 0"'))
+    assert [c.joint for c in ps.diff(urdfs.load(ARM), b).changes] == ["j1"]
+    monkeypatch.setattr(walk._Table, "behind", lambda _self, _i, above: above)
+    assert len(ps.diff(urdfs.load(ARM), b).changes) > 1
+
+
+def test_files(tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(ARM)
+    assert ps.diff(ps.load(file), ps.load(file)).same
