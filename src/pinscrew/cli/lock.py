@@ -1,0 +1,236 @@
+"""``pinscrew lock``: keep a robot's mechanism beside its file, and tell when an edit moves it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import click
+
+from pinscrew.cli import arguments, output
+from pinscrew.cli.progress import progress
+from pinscrew.cli.reports import Wanted, report_options
+from pinscrew.errors import DescriptionError, PinscrewError
+
+if TYPE_CHECKING:
+    from pinscrew.lockfile.checking import Checked
+    from pinscrew.robot import Robot
+
+    _Failure: TypeAlias = tuple[Path, PinscrewError]
+
+__all__ = ["command"]
+
+
+@click.command(name="lock", short_help="Keep mechanisms in lock files; check that edits don't move them.")
+@arguments.robot_argument(required=False)
+@click.option("--check", "checking", is_flag=True, help="Compare the robots with their locks; write nothing.")
+@click.option("--output", "written", metavar="FILE", help="The lock of one robot; its name ends in .urdf.lock, say.")
+@arguments.tip_option
+@report_options
+def command(words: tuple[str, ...], checking: bool, written: str | None, tip: str | None, wanted: Wanted) -> None:
+    """Write the mechanism of each ROBOT, a file, to a lock beside it: arm.urdf.lock.
+
+    A lock holds names, types, home poses, screw axes, limits and mimics as text that can be read and compared line by
+    line. With --check, the robots' files are held against their locks, or against the locks that are named, or,
+    without either, against every .urdf.lock and .xacro.lock below the current folder. Frames of links that move
+    with their parent may be placed anew; a joint, a screw or a tip may not.
+
+    The lock of a xacro file holds the arguments that were given; name the lock itself to write it anew with them.
+    Exit status: 0 if no mechanism moved, 1 if one did, 2 if a lock is missing or anything could not be read.
+
+    \b
+      pinscrew lock path/to/arm.urdf
+      pinscrew lock path/to/arm.urdf --check
+      pinscrew lock path/to/arm.urdf.lock
+    """
+    if not checking:
+        if wanted.files or wanted.github:
+            raise click.UsageError("there is something to report with --check only")
+        _write(words, written, tip, wanted.as_json)
+        return
+    if written is not None or tip is not None or arguments.options()["floating_base"]:
+        raise click.UsageError("--check takes output, tip and floating base from the locks")
+    _check(words, wanted)
+
+
+# ------------------------------------------------------------------------------------------------- writing
+
+
+def _write(words: Sequence[str], written: str | None, tip: str | None, as_json: bool) -> None:
+    from pinscrew.lockfile.writing import text
+
+    named = arguments.robots(words)
+    if not named:
+        raise click.UsageError("name the robots' files, or --check the locks that there are")
+    if written is not None and len(named) > 1:
+        raise click.UsageError("--output takes one robot")
+    texts: dict[Path, str] = {}
+    with progress("reading", len(named)) as advance:
+        for one in named:
+            path, robot = _robot(one, written, tip)
+            if path in texts:
+                raise click.UsageError(f"two robots for the lock {path}; name one of them with --output")
+            texts[path] = text(robot, path)
+            advance(1, one.source)
+    changed = [path for path, content in texts.items() if not _holds(path, content)]
+    for path in changed:
+        output.write_file(path, texts[path])
+    if as_json:
+        rows = [{"lock": str(path), "written": path in changed} for path in texts]
+        output.print_json({"schema": "pinscrew.locked/1", "locks": rows})
+        return
+    for path in texts:
+        click.echo(f"{path}: {'written' if path in changed else 'unchanged'}")
+
+
+def _robot(named: arguments.Named, written: str | None, tip: str | None) -> tuple[Path, Robot]:
+    """Where a robot's lock goes, and the robot."""
+    from pinscrew.lockfile.checking import reload
+    from pinscrew.lockfile.places import beside, is_lock
+    from pinscrew.lockfile.reading import read_lock
+
+    if is_lock(named.source):
+        if named.arguments or written is not None or tip is not None or named.options["floating_base"]:
+            raise click.UsageError(f"{named.source} has arguments, tip and base of its own; name the robot's file")
+        lock = read_lock(Path(named.source))
+        options = {name: value for name, value in named.options.items() if name != "floating_base"}
+        return lock.path, reload(lock, **options)
+    if written is None:
+        path = beside(named.source)
+    elif is_lock(written):
+        path = Path(written)
+    else:
+        what = "the lock's name ends in neither .urdf.lock nor .xacro.lock, so --check would not find it"
+        raise DescriptionError("lock-name", what, file=written, remedy=f"call it {written}.urdf.lock, say")
+    named.options = {**named.options, "tip": tip}
+    robot = named.load()
+    _keep_arguments(path, robot)
+    return path, robot
+
+
+def _keep_arguments(path: Path, robot: Robot) -> None:
+    """Refuse to write over a lock that was made in another way, so that no argument is lost unnoticed."""
+    from pinscrew.lockfile.reading import read_lock
+
+    try:
+        held = read_lock(path).document
+    except DescriptionError:  # there is none, or none that could be of use
+        return
+    ways = (held.arguments, held.floating_base, held.tip)
+    if ways != (robot.description.arguments, robot.floating_base, robot.default_tip):
+        made = [f"{name}:={value}" for name, value in held.arguments.items()]
+        made += ["--floating-base"] * held.floating_base + [f"--tip {held.tip}"] * (held.tip is not None)
+        what = f"it was made with {' '.join(made) or 'no arguments'}, and not as this one would be"
+        remedy = "name the lock to write it anew as it is, another one with --output, or remove it"
+        raise DescriptionError("lock-arguments", what, file=path, remedy=remedy)
+
+
+def _holds(path: Path, content: str) -> bool:
+    """Whether a file has this content already."""
+    try:
+        return path.read_bytes() == content.encode("utf-8")
+    except OSError:
+        return False
+
+
+# ------------------------------------------------------------------------------------------------ checking
+
+
+def _check(words: Sequence[str], wanted: Wanted) -> None:
+    from pinscrew.lockfile.checking import check
+
+    options = {name: value for name, value in arguments.options().items() if name != "floating_base"}
+    paths = _locks(words)
+    checked: list[Checked] = []
+    errors: list[_Failure] = []
+    with progress("checking", len(paths)) as advance:
+        for path in paths:
+            try:
+                checked.append(check(path, **options))
+            except PinscrewError as error:
+                errors.append((path, error))
+            advance(1, str(path))
+    if wanted.as_json:
+        _print_json(checked, errors)
+    else:
+        _print_lines(checked, len(paths))
+    for _, failure in errors:
+        click.echo(f"pinscrew: {failure}", err=True)
+    _report(wanted, checked, errors)
+    if not all(one.same for one in checked):
+        sys.exit(1)
+    if errors:
+        sys.exit(2)
+
+
+def _locks(words: Sequence[str]) -> list[Path]:
+    """The locks that are named, or belong to the files that are, or else all below the current folder."""
+    from pinscrew.lockfile.places import below, beside, is_lock
+
+    paths = []
+    for one in arguments.robots(words):
+        if one.arguments:
+            raise click.UsageError("--check takes the xacro arguments from the locks")
+        paths.append(Path(one.source) if is_lock(one.source) else beside(one.source))
+    if not words:
+        paths = list(below(Path()))
+    if not paths:
+        what = "there is no .urdf.lock and no .xacro.lock here or below"
+        raise DescriptionError("not-locked", what, file=os.curdir, remedy="write some with pinscrew lock FILE")
+    return paths
+
+
+def _report(wanted: Wanted, checked: Sequence[Checked], errors: Sequence[_Failure]) -> None:
+    from pinscrew.findings import from_error, to_junit, to_markdown
+    from pinscrew.lockfile.findings import from_checked
+
+    findings = [found for one in checked for found in from_checked(one)]
+    findings += [from_error(error, str(path)) for path, error in errors]
+    locks = [str(one.lock) for one in checked] + [str(path) for path, _ in errors]
+    same = sum(one.same for one in checked)
+    heading = f"### pinscrew lock: {same} of {len(locks)} mechanisms are those of their locks\n\n"
+    wanted.write(
+        "pinscrew lock",
+        findings,
+        junit=lambda: to_junit(findings, locks, "pinscrew lock"),
+        markdown=lambda: heading + to_markdown(findings),
+    )
+
+
+def _print_lines(checked: Sequence[Checked], asked: int) -> None:
+    """A line for each lock, what moved below it, and how to go on."""
+    for one in checked:
+        click.echo(f"{one.lock}: {'the same' if one.same else 'MOVED'}")
+        if one.changes is not None:
+            for change in one.changes.changes:
+                click.echo(f"  {change.words}")
+            for note in one.changes.notes:
+                click.echo(f"  note: {note.words}")
+    moved = [str(one.lock) for one in checked if not one.same]
+    if moved:
+        click.echo(f"{len(moved)} of {asked} mechanisms moved; if that is meant: pinscrew lock {' '.join(moved)}")
+    else:
+        click.echo(f"{len(checked)} of {asked} mechanisms are those of their locks")
+
+
+def _print_json(checked: Sequence[Checked], errors: Sequence[_Failure]) -> None:
+    rows: list[dict[str, Any]] = []
+    for one in checked:
+        changes = () if one.changes is None else one.changes.changes
+        notes = () if one.changes is None else one.changes.notes
+        rows.append(
+            {
+                "lock": str(one.lock),
+                "file": one.robot.description.file,
+                "same": one.same,
+                "changes": [asdict(change) for change in changes],
+                "notes": [asdict(note) for note in notes],
+            }
+        )
+    failed = [{"lock": str(path), "code": error.code, "message": str(error)} for path, error in errors]
+    ok = not errors and all(one.same for one in checked)
+    output.print_json({"schema": "pinscrew.lock-check/1", "ok": ok, "locks": rows, "errors": failed})
