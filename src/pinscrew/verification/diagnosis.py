@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -24,6 +24,7 @@ from pinscrew.typing import FloatArray
 from pinscrew.verification import structure
 from pinscrew.verification.configurations import sizes
 from pinscrew.verification.report import Check
+from pinscrew.verification.structure import Difference
 
 __all__ = ["diagnose"]
 
@@ -33,29 +34,29 @@ RIGID: Final = 1e-6
 """How far a pose may be from rigid for a rotation to be read off it."""
 
 
-def diagnose(engines: tuple[Engine, Engine], failed: Sequence[Check], tolerance: float) -> tuple[str, ...]:
+def diagnose(engines: tuple[Engine, Engine], failed: Sequence[Check], tolerance: float) -> tuple[Difference, ...]:
     """The first joints down the tree that the two engines read, place or move differently, in words.
 
     They are looked for at zero and, if all is alike there, where the first failed check has its largest error.
     """
     seen = structure.joint_differences(*engines)
     explained = {difference.joint for difference in seen if difference.what != "limits"}
-    found = [difference.words for difference in seen]
+    found = list(seen)
     numbers = [check for check in failed if check.tolerance > 0.0]
     if numbers and structure.same_coordinates(*engines):
         answered = _answered_differently(engines, numbers, tolerance, explained)
         if not answered and not explained:
             names = ", ".join(check.name for check in numbers)
-            answered = [f"every joint places and moves its child alike; what differs is: {names}"]
+            answered = [_answered("", f"every joint places and moves its child alike; what differs is: {names}")]
         found += answered
     if len(found) > MOST:
-        found[MOST - 1 :] = [f"… and {len(found) - MOST + 1} more differences"]
+        found[MOST - 1 :] = [_answered("", f"… and {len(found) - MOST + 1} more differences")]
     return tuple(found)
 
 
 def _answered_differently(
     engines: tuple[Engine, Engine], failed: Sequence[Check], tolerance: float, explained: set[str]
-) -> list[str]:
+) -> list[Difference]:
     """Differences in the engines' answers, but for joints that the parsers' differences explain."""
     robot = engines[0].robot
     skipped = explained | _followers(engines[0].joints(), explained)
@@ -63,8 +64,12 @@ def _answered_differently(
     place = next((check.place for check in failed if check.place.q), None)
     if not found and place is not None:
         ways = _at(engines, np.array(place.q), tolerance, skipped)
-        found = [f"at {place.configuration}, {way}" for way in ways]
+        found = [replace(way, words=f"at {place.configuration}, {way.words}") for way in ways]
     return found
+
+
+def _answered(joint: str, words: str) -> Difference:
+    return Difference(joint, "answers", words)
 
 
 def _followers(joints: Mapping[str, JointView], masters: set[str]) -> set[str]:
@@ -134,7 +139,7 @@ class _Seen:
         return cls(T_parent_child, child.J - se3.adjoint(se3.inverse(T_parent_child)) @ parent.J)
 
 
-def _at(engines: tuple[Engine, Engine], q: FloatArray, tolerance: float, skipped: set[str]) -> list[str]:
+def _at(engines: tuple[Engine, Engine], q: FloatArray, tolerance: float, skipped: set[str]) -> list[Difference]:
     """Differences at one configuration, down the tree."""
     a, b = engines
     robot = a.robot
@@ -146,7 +151,7 @@ def _at(engines: tuple[Engine, Engine], q: FloatArray, tolerance: float, skipped
     against = f"in {b.name}, compared with {a.name}"
     found = []
     if not alike.get(robot.base, True):
-        found.append(f"the base {robot.base!r} itself is placed or moved differently {against}")
+        found.append(_answered("", f"the base {robot.base!r} itself is placed or moved differently {against}"))
     for joint in robot.description.joints:
         # A child that is where it should be, below a parent that is not, shows that the joint is right.
         if joint.name in skipped or alike.get(joint.child, True) or joint.parent not in alike:
@@ -157,10 +162,11 @@ def _at(engines: tuple[Engine, Engine], q: FloatArray, tolerance: float, skipped
             told = [
                 f"{own[joint.child]} in {e.name}" for e, own in zip(engines, flaws, strict=True) if own[joint.child]
             ]
-            found += [f"joint {joint.name!r}: its child {joint.child!r} {flaw}" for flaw in told]
-            continue
-        seen = [_Seen.between(own[joint.parent], own[joint.child]) for own in frames]
-        found += [f"joint {joint.name!r}: {way} {against}" for way in _ways(joint, seen[0], seen[1], robot, near)]
+            ways = [f"its child {joint.child!r} {flaw}" for flaw in told]
+        else:
+            seen = [_Seen.between(own[joint.parent], own[joint.child]) for own in frames]
+            ways = [f"{way} {against}" for way in _ways(joint, seen[0], seen[1], robot, near)]
+        found += [_answered(joint.name, f"joint {joint.name!r}: {way}") for way in ways]
     return found
 
 

@@ -23,11 +23,16 @@ from pinscrew.typing import FloatArray
 from pinscrew.verification.comparison import Worst, jacobian_error
 from pinscrew.verification.configurations import angles
 
-__all__ = ["POINTS", "compare_differences", "difference_frames", "tolerance"]
+__all__ = ["POINTS", "check_name", "compare_differences", "difference_frames", "tolerance"]
 
 UNIT: Final = 2.0**-53
 POINTS: Final = 4
 """Configurations at which differences are taken."""
+
+
+def check_name(engine: str) -> str:
+    """What the check of an engine's own Jacobians is called."""
+    return f"finite differences of FK in {engine}"
 
 
 def difference_frames(robot: Robot, frames: tuple[str, ...]) -> tuple[str, ...]:
@@ -46,7 +51,7 @@ def tolerance(robot: Robot, q: FloatArray) -> float:
 def compare_differences(engine: Engine, q: FloatArray, scales: FloatArray, frames: tuple[str, ...]) -> Worst:
     """The check of ``frames`` at configurations ``q`` (N, nq), whose sizes are ``scales`` (N,)."""
     robot = engine.robot
-    check = Worst(f"finite differences of FK in {engine.name}", tolerance(robot, q))
+    check = Worst(check_name(engine.name), tolerance(robot, q))
     h = UNIT ** (1 / 3) / _gain(robot)
     steps = np.concatenate([np.eye(robot.nv), -np.eye(robot.nv)]) * h
     moved = integrate(robot, q[:, None], steps)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
-from xml.etree import ElementTree as ET
 
 from pinscrew.errors import PinscrewError
+from pinscrew.findings import junit
+from pinscrew.findings.markdown import cell, unbroken
 from pinscrew.verification.report import Check, Report
 
 __all__ = [
@@ -28,8 +28,8 @@ __all__ = [
 
 SCHEMA: Final = "pinscrew.verify/1"
 
-_NOT_XML: Final = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 has no way to write; a file's name may hold it."""
+_WITNESSES: Final = {"MuJoCo": "mujoco", "roboticstoolbox": "roboticstoolbox-python"}
+"""The packages of engines that are optional."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ def summary(report: Report) -> str:
     """One line: what was compared, and the outcome."""
     outcome = "agree" if report.ok else "DISAGREE"
     return (
-        f"{_line(report.robot)}: {report.engines[0]} and {report.engines[1]} {outcome} on {report.frames} frames "
+        f"{unbroken(report.robot)}: {report.engines[0]} and {report.engines[1]} {outcome} on {report.frames} frames "
         f"at {report.configurations} configurations (seed {report.seed})"
     )
 
@@ -57,12 +57,7 @@ def place(check: Check) -> str:
         found.joint and f"joint {found.joint}",
         found.configuration,
     )
-    return _line(", ".join(part for part in parts if part))
-
-
-def _line(text: str) -> str:
-    """Text without line breaks; names may hold them."""
-    return " ".join(text.split())
+    return unbroken(", ".join(part for part in parts if part))
 
 
 def to_text(report: Report) -> str:
@@ -92,7 +87,9 @@ def failures(report: Report) -> list[str]:
 
 def to_json(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
     """The reports as JSON, schema `SCHEMA`. An infinite error (NaN in an answer) is the string ``"inf"``."""
-    versions = {name: importlib.metadata.version(name) for name in ("pinscrew", "pin", "yourdfpy", "numpy")}
+    packages = ["pinscrew", "pin", "yourdfpy", "numpy"]
+    packages += sorted({_WITNESSES[name] for report in reports for name in report.engines if name in _WITNESSES})
+    versions = {name: importlib.metadata.version(name) for name in packages}
     document = {
         "schema": SCHEMA,
         "versions": versions,
@@ -137,63 +134,45 @@ def _as_data(report: Report) -> dict[str, Any]:
 
 def to_junit(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
     """The reports as JUnit XML: a suite for each robot, a case for each check."""
-    root = ET.Element("testsuites", name="pinscrew verify")
-    for report in reports:
-        suite = _suite(root, report.robot, tests=len(report.checks), failures=len(report.failed), errors=0)
-        for check in report.checks:
-            case = _case(suite, check.name)
-            if not check.ok:
-                message = f"error {check.error:.3e} above {check.tolerance:.3e}, largest at {place(check)}"
-                failure = ET.SubElement(case, "failure", message=message, type="disagreement")
-                lines = dict.fromkeys((*check.remarks, *report.diagnosis, f"q = {list(check.place.q)}"))
-                failure.text = "\n".join(lines)
-    for unverified in errors:
-        case = _case(_suite(root, unverified.robot, tests=1, failures=0, errors=1), "verify")
-        ET.SubElement(case, "error", message=str(unverified.error), type=unverified.error.code)
-    for name in ("tests", "failures", "errors"):
-        root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
-    ET.indent(root)
-    document = '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
-    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", document)
+    suites = [junit.Suite(_title(report), [_case(report, check) for check in report.checks]) for report in reports]
+    for one in errors:
+        problem = junit.Problem("error", str(one.error), one.error.code)
+        suites.append(junit.Suite(one.robot, [junit.Case("verify", problem)]))
+    return junit.document("pinscrew verify", suites)
 
 
-def _suite(root: ET.Element, robot: str, **counts: int) -> ET.Element:
-    suite = ET.SubElement(root, "testsuite", name=robot, skipped="0")
-    for name, count in counts.items():
-        suite.set(name, str(count))
-    return suite
+def _title(report: Report) -> str:
+    """The robot, and the engines where they are not those that `verify` compares unless told otherwise."""
+    robot, engines = report.robot, " and ".join(report.engines)
+    return robot if engines == "PoE and Pinocchio" else f"{robot} ({engines})"
 
 
-def _case(suite: ET.Element, name: str) -> ET.Element:
-    return ET.SubElement(suite, "testcase", classname=f"pinscrew.{suite.get('name')}", name=name)
+def _case(report: Report, check: Check) -> junit.Case:
+    if check.ok:
+        return junit.Case(check.name)
+    message = f"error {check.error:.3e} above {check.tolerance:.3e}, largest at {place(check)}"
+    lines = dict.fromkeys((*check.remarks, *report.diagnosis, f"q = {list(check.place.q)}"))
+    return junit.Case(check.name, junit.Problem("failure", message, "disagreement", "\n".join(lines)))
 
 
 def to_markdown(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
     """The reports as Markdown: a line and a table for each."""
     lines: list[str] = []
     for report in reports:
-        lines += [f"### {_cell(summary(report))}", "", "| check | error | tolerance | | largest at |"]
+        lines += [f"### {cell(summary(report))}", "", "| check | error | tolerance | | largest at |"]
         lines += ["|---|---|---|---|---|"]
         for check in report.checks:
             mark = "ok" if check.ok else "**FAIL**"
-            where = _cell(place(check))
-            lines.append(f"| {_cell(check.name)} | {check.error:.1e} | {check.tolerance:.1e} | {mark} | {where} |")
+            where = cell(place(check))
+            lines.append(f"| {cell(check.name)} | {check.error:.1e} | {check.tolerance:.1e} | {mark} | {where} |")
         lines.append("")
         if not report.ok:
-            lines += [*(f"- {_cell(line)}" for line in details(report)), ""]
+            lines += [*(f"- {cell(line)}" for line in details(report)), ""]
     for unverified in errors:
         lines += [
-            f"### {_cell(unverified.robot)}: could not be verified",
+            f"### {cell(unverified.robot)}: could not be verified",
             "",
-            _cell(str(unverified.error)),
+            cell(str(unverified.error)),
             "",
         ]
     return "\n".join(lines)
-
-
-def _cell(text: str) -> str:
-    """Text on one line, with what Markdown would take as markup made plain."""
-    text = _line(text)
-    for mark in "\\`*_|<>[]":
-        text = text.replace(mark, f"\\{mark}")
-    return text

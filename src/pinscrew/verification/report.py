@@ -67,6 +67,7 @@ class Report:
         reach: the robot's size (m).
         checks: one per comparison.
         diagnosis: where the robots of the engines differ first, in words; empty if they agree.
+        blamed: the joint that each line of the diagnosis is about, or ``""``.
     """
 
     robot: str
@@ -81,6 +82,7 @@ class Report:
     reach: float
     checks: tuple[Check, ...]
     diagnosis: tuple[str, ...] = field(default=())
+    blamed: tuple[str, ...] = field(default=())
 
     @property
     def ok(self) -> bool:

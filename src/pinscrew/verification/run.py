@@ -11,17 +11,19 @@ import numpy as np
 from pinscrew.engines.base import Engine
 from pinscrew.errors import InputError
 from pinscrew.robot import Robot
-from pinscrew.verification import comparison, diagnosis, differences, structure
+from pinscrew.verification import comparison, compiled, diagnosis, differences, structure
 from pinscrew.verification.configurations import Configurations, configurations
 from pinscrew.verification.report import Check, Report
 
-__all__ = ["TOLERANCE", "verify"]
+__all__ = ["TOLERANCE", "check_names", "verify"]
 
 TOLERANCE: Final = 1e-12
 """Of errors in which metres are divided by max(1, size): ten times the worst of some thousand public robots."""
 
 BLOCK_BYTES: Final = 2**26
 """Memory for the answers of one engine to one block of configurations."""
+
+_STRUCTURE, _HOME, _SCREWS = "structure", "home poses", "screw axes"
 
 
 def verify(
@@ -37,7 +39,8 @@ def verify(
 
     They are compared on every frame at zero, at the limits' corners and middle, at random within the limits and
     far outside; each engine's Jacobians are also held against each other and against finite differences of its
-    own FK. Metres are divided by max(1, size of the robot); NaN is a failure.
+    own FK. With 10 000 samples or more `Batch` is compared too, where it can be compiled. Metres are divided by
+    max(1, size of the robot); NaN is a failure.
 
     Args:
         robot: the robot.
@@ -65,10 +68,11 @@ def verify(
     known = tuple(name for name in names if all(name in engine.robot.frame_names for engine in pair))
     remarks = structure.compare(*pair)
     where = configurations(robot, samples, seed)
-    checks = [Check("structure", float(len(remarks)), 0.0, remarks=remarks)]
+    checks = [Check(_STRUCTURE, float(len(remarks)), 0.0, remarks=remarks)]
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite fails its check; no need to warn
         if known and structure.same_coordinates(*pair):
-            checks += _numbers(robot, pair, known, where, tolerance)
+            many = engines is None and bool(compiled.check_names(samples))
+            checks += _numbers(robot, pair, known, where, tolerance, many=many)
         failed = [check for check in checks if not check.ok]
         found = diagnosis.diagnose(pair, failed, tolerance) if failed else ()
     return Report(
@@ -83,7 +87,27 @@ def verify(
         tolerance=tolerance,
         reach=robot.reach,
         checks=tuple(checks),
-        diagnosis=found,
+        diagnosis=tuple(difference.words for difference in found),
+        blamed=tuple(difference.joint for difference in found),
+    )
+
+
+def check_names(samples: int) -> tuple[str, ...]:
+    """The names of the checks of a report on so many samples, in its order, where the engines are the default ones.
+
+    A robot whose structure the engines see differently has the first only, if their coordinates differ by it.
+    """
+    engines = ("PoE", "Pinocchio")
+    identities = (check.name for engine in engines for check in comparison.compare_identities(engine, TOLERANCE))
+    own = map(differences.check_name, engines)
+    return (
+        _STRUCTURE,
+        _HOME,
+        _SCREWS,
+        *comparison.compare_answers(TOLERANCE),
+        *identities,
+        *own,
+        *compiled.check_names(samples),
     )
 
 
@@ -100,12 +124,16 @@ def _numbers(
     frames: tuple[str, ...],
     where: Configurations,
     tolerance: float,
+    *,
+    many: bool,
 ) -> list[Check]:
-    """All checks of numbers, in the order in which a report shows them."""
-    home = comparison.Worst("home poses", tolerance)
-    screws = comparison.Worst("screw axes", tolerance)
+    """All checks of numbers, in the order in which a report shows them; of `Batch` too if they are many."""
+    home = comparison.Worst(_HOME, tolerance)
+    screws = comparison.Worst(_SCREWS, tolerance)
     answers = comparison.compare_answers(tolerance)
     identities = [comparison.compare_identities(engine.name, tolerance) for engine in engines]
+    leaves = differences.difference_frames(robot, frames)
+    extra = compiled.CompiledChecks(robot, leaves, frames, tolerance) if many else None
     for block in where.blocks(_block_length(robot, len(frames))):
         scales, start = where.scales[block], block.start
         a, b = (engine.answers(where.q[block], where.qd[block], frames) for engine in engines)
@@ -116,14 +144,15 @@ def _numbers(
         comparison.see_answers(answers, a, b, scales, start)
         for checks, own in zip(identities, (a, b), strict=True):
             comparison.see_identities(checks, own, scales, start)
+        if extra is not None:
+            extra.see(where.q[block], a, scales, start)
     worst = [home, screws, *answers.values(), *identities[0], *identities[1]]
     done = [w.check(robot, frames, where) for w in worst]
-    leaves = differences.difference_frames(robot, frames)
     points = where.take(np.linspace(0, where.inside - 1, differences.POINTS).astype(int))
     for engine in engines:
         check = differences.compare_differences(engine, points.q, points.scales, leaves)
         done.append(check.check(robot, leaves, points))
-    return done
+    return done + [w.check(robot, leaves, where) for w in (extra.worst if extra is not None else ())]
 
 
 def _block_length(robot: Robot, frames: int) -> int:

@@ -14,11 +14,12 @@ _COORDINATES = ("coordinate_names", "velocity_names")
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """One thing about a joint that two parsers see differently.
+    """One thing about a joint that two engines see or answer differently.
 
     Attributes:
-        joint: its name.
-        what: ``"presence"``, ``"type"``, ``"parent"``, ``"child"``, ``"mimic"`` or ``"limits"``.
+        joint: its name, or ``""`` if it is about none.
+        what: ``"presence"``, ``"type"``, ``"parent"``, ``"child"``, ``"mimic"`` or ``"limits"`` as their parsers see
+            it, or ``"answers"``.
         words: the difference in a sentence.
     """
 
@@ -64,8 +65,13 @@ def _compare_joint(name: str, a: tuple[str, JointView], b: tuple[str, JointView]
     for what in ("type", "parent", "child", "mimic"):
         mine, other = getattr(view_a, what), getattr(view_b, what)
         if mine != other:
-            shown = [_mimic(value) if what == "mimic" else repr(value) for value in (mine, other)]
-            words = f"joint {name!r}: its {what} is {shown[0]} to {engine_a}, {shown[1]} to {engine_b}"
+            if mine is None:
+                words = f"{engine_a} treats joint {name!r} as independent; to {engine_b} it is {_mimic(other)}"
+            elif other is None:
+                words = f"{engine_b} treats joint {name!r} as independent; to {engine_a} it is {_mimic(mine)}"
+            else:
+                shown = [_mimic(value) if what == "mimic" else repr(value) for value in (mine, other)]
+                words = f"joint {name!r}: its {what} is {shown[0]} to {engine_a}, {shown[1]} to {engine_b}"
             found.append(Difference(name, what, words))
     # A mimic joint's own limits don't bound any coordinate.
     if view_a.mimic is None and not _same_limits(view_a.limits, view_b.limits):
@@ -75,8 +81,8 @@ def _compare_joint(name: str, a: tuple[str, JointView], b: tuple[str, JointView]
     return found
 
 
-def _mimic(mimic: tuple[str, float, float] | None) -> str:
-    return "none" if mimic is None else f"{mimic[1]!r} times {mimic[0]!r} plus {mimic[2]!r}"
+def _mimic(mimic: tuple[str, float, float]) -> str:
+    return f"{mimic[1]!r} times {mimic[0]!r} plus {mimic[2]!r}"
 
 
 def _same_limits(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bool:

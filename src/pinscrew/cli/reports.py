@@ -1,0 +1,105 @@
+"""The reports that commands for CI write: JSON, JUnit XML, Markdown, SARIF, and GitHub's annotations and summary."""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+import click
+
+from pinscrew import files
+from pinscrew.cli import arguments, output
+
+if TYPE_CHECKING:
+    from pinscrew.findings.model import Finding
+
+__all__ = ["Wanted", "report_options"]
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+_SUMMARY: Final = "GITHUB_STEP_SUMMARY"
+"""Names the file that GitHub shows as the summary of a job."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Which reports are wanted.
+
+    Attributes:
+        as_json: whether standard output is to be JSON.
+        junit, markdown, sarif: the files for these, or None.
+        github: whether GitHub is to be told.
+    """
+
+    as_json: bool
+    junit: Path | None
+    markdown: Path | None
+    sarif: Path | None
+    github: bool
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The files that are to be written."""
+        return tuple(file for file in (self.junit, self.markdown, self.sarif) if file is not None)
+
+    def write(
+        self, task: str, findings: Sequence[Finding], *, junit: Callable[[], str], markdown: Callable[[], str]
+    ) -> None:
+        """Write those that are wanted, but for JSON, which each command prints where it prints its table.
+
+        Annotations go to standard error, which GitHub reads as well as standard output, so that ``--json`` has the
+        latter for itself. They come first: a file that can't be written must not silence them.
+
+        Args:
+            task: what was done, such as ``"pinscrew verify"``.
+            findings: for annotations and SARIF.
+            junit, markdown: make these reports.
+
+        Raises:
+            InputError: if a file can't be written.
+        """
+        from pinscrew.findings import to_annotations, to_sarif
+
+        if self.github:
+            click.echo(to_annotations(findings), err=True, nl=False)
+            summary = os.environ.get(_SUMMARY)
+            if summary:
+                files.append(Path(summary), markdown().encode("utf-8", errors="backslashreplace") + b"\n")
+        if self.junit is not None:
+            output.write_file(self.junit, junit())
+        if self.markdown is not None:
+            output.write_file(self.markdown, markdown())
+        if self.sarif is not None:
+            output.write_file(self.sarif, to_sarif(findings, task))
+
+
+def _file(name: str, what: str) -> Callable[[_F], _F]:
+    kind = click.Path(dir_okay=False, path_type=Path)
+    return click.option(f"--{name}", type=kind, metavar="FILE", help=f"Write {what} to this file.")
+
+
+def report_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the options for reports; it gets them as one argument, ``wanted``."""
+
+    @arguments.json_option
+    @_file("junit", "JUnit XML")
+    @_file("markdown", "Markdown")
+    @_file("sarif", "SARIF 2.1.0")
+    @click.option("--github", is_flag=True, help="Write annotations to stderr, and Markdown to a GitHub job's summary.")
+    @functools.wraps(function)
+    def command(
+        *given: Any,
+        as_json: bool,
+        junit: Path | None,
+        markdown: Path | None,
+        sarif: Path | None,
+        github: bool,
+        **others: Any,
+    ) -> Any:
+        return function(*given, wanted=Wanted(as_json, junit, markdown, sarif, github), **others)
+
+    return command

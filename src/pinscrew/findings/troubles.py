@@ -1,0 +1,53 @@
+"""Errors and warnings of pinscrew as findings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from pinscrew.description.expand import is_xacro
+from pinscrew.description.packages import is_file
+from pinscrew.errors import DescriptionError, PinscrewError, PinscrewWarning, XacroError
+from pinscrew.findings.model import Finding
+from pinscrew.words import brief, one_line
+
+__all__ = ["expanded", "from_error", "from_warning"]
+
+_LONGEST: Final = 1200
+"""Characters of a message that may come from a file."""
+
+
+def from_error(error: PinscrewError, robot: str = "") -> Finding:
+    """What an error says, at its place.
+
+    Args:
+        error: the error.
+        robot: the robot, as it was asked for; its file is the place of an error that has none.
+    """
+    file, line = (robot if is_file(Path(robot)) else ""), None
+    if isinstance(error, DescriptionError):
+        file, line = error.file, error.line
+    said = [error.what, error.remedy]
+    if line is not None and not isinstance(error, XacroError):  # xacro's own errors have the line of the macro
+        line, at = expanded(file, line)
+        said[0] += at
+    elif not file and error.where:
+        said[0] = f"{error.where}: {error.what}"
+    return Finding(error.code, "error", "; ".join(_short(text) for text in said if text), file, line, robot)
+
+
+def from_warning(warning: PinscrewWarning, robot: str = "") -> Finding:
+    """What a warning says, at its place."""
+    line, at = expanded(warning.file, warning.line)
+    return Finding(warning.code, "warning", _short(warning.what) + at, warning.file, line, robot)
+
+
+def expanded(file: str, line: int | None) -> tuple[int | None, str]:
+    """The line for a finding, and what to add to its message: lines of a xacro's expansion are none of its file."""
+    if line is None or not is_xacro(Path(file)):
+        return line, ""
+    return None, f" (line {line} of its expansion)"
+
+
+def _short(text: str) -> str:
+    return one_line(brief(text, _LONGEST))
