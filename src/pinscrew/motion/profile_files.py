@@ -1,0 +1,181 @@
+"""Reading profiles: pieces from YAML, tables from CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from pinscrew.description import catalogue, markup
+from pinscrew.description.packages import is_file
+from pinscrew.errors import InputError, UnknownNameError
+from pinscrew.motion.pieces import Piece, Pieces, Place, expression
+from pinscrew.motion.profile import Between, Profile
+from pinscrew.motion.table import Table, check_between
+from pinscrew.robot import Robot
+
+if TYPE_CHECKING:
+    import yaml
+
+    from pinscrew.expressions import Expression
+
+__all__ = ["ASSIGNMENT", "named", "read"]
+
+ASSIGNMENT: Final = "assignment"
+"""The name of the profile that a coursework gives with its robot."""
+SUFFIXES: Final = (".yaml", ".yml", ".csv")
+MOST_YAML: Final = 1_000_000
+"""Characters of a profile in YAML, which is read slowly; a CSV file may have twenty times as many."""
+
+
+def named(name: str | Path, robot: Robot, between: Between = "linear") -> Profile:
+    """The profile of this name: ``"assignment"``, which is bundled with some robots, or a file.
+
+    Raises:
+        UnknownNameError: if the robot has no bundled profile, or there is no such file.
+        DescriptionError, InputError: see `Profile.read`.
+    """
+    folder = catalogue.robots_directory() / "profiles"
+    bundled = folder / f"{robot.name}.yaml"
+    path = Path(name)
+    if name == ASSIGNMENT and is_file(bundled):
+        return read(bundled, between)
+    if name == ASSIGNMENT or not (path.suffix.lower() in SUFFIXES or is_file(path)):
+        robots = ", ".join(sorted(file.stem for file in folder.glob("*.yaml")))
+        known = (f"{ASSIGNMENT} (for {robots})", f"a file that ends in {', '.join(SUFFIXES)}")
+        raise UnknownNameError("unknown-profile", "profile", str(name), known, where=robot.name)
+    return read(path, between)
+
+
+def read(path: Path, between: Between = "linear") -> Profile:
+    """See `Profile.read`."""
+    check_between(between)
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        what = f"a profile can't be read from a file with the suffix {path.suffix!r}"
+        raise InputError("profile-format", what, where=str(path), remedy=f"use {', '.join(SUFFIXES)}")
+    text = markup.read(path)
+    return _table(text, str(path), between) if suffix == ".csv" else _pieces(text, str(path))
+
+
+# --------------------------------------------------------------------------------------------------- YAML
+
+
+def _pieces(text: str, source: str) -> Pieces:
+    """The document is read as text with lines, and never as objects: nothing in it is run or made."""
+    import yaml
+
+    if len(text) > MOST_YAML:
+        raise Place(source).error("too-large", f"larger than {MOST_YAML / 1e6:g} MB", "use CSV for a large table")
+    try:
+        document = yaml.compose(text, Loader=yaml.SafeLoader)
+    except yaml.MarkedYAMLError as error:
+        line = None if error.problem_mark is None else error.problem_mark.line + 1
+        raise Place(source, line).error("profile-format", f"is no YAML ({error.problem or error.context})") from None
+    except yaml.YAMLError as error:
+        raise Place(source).error("profile-format", f"is no YAML ({error})") from None
+    except RecursionError:
+        raise Place(source).error("profile-format", "is nested too deeply") from None
+    top = dict(_entries(document, Place(source, 1), ("rates",), required=("rates",)))
+    rates = dict(_entries(top["rates"], Place(source, _line(top["rates"]), "rates")))
+    return Pieces({name: _rates(name, node, source) for name, node in rates.items()}, source)
+
+
+def _rates(name: str, node: yaml.Node, source: str) -> list[Piece] | Expression:
+    """The pieces of a velocity, or the one expression for all times."""
+    if node.id == "scalar":
+        return expression(node.value, Place(source, _line(node), name))
+    if node.id != "sequence":
+        remedy = "write a list of {when: 0 <= t <= 1, rate: 0.1*t}, or one rate for all times"
+        raise Place(source, _line(node), name).error("profile-format", "is no list of pieces", remedy)
+    found = []
+    for i, each in enumerate(node.value, 1):
+        place = Place(source, _line(each), f"{name}, piece {i}")
+        parts = dict(_entries(each, place, ("when", "rate"), required=("when", "rate")))
+        for key, part in parts.items():
+            if part.id != "scalar":
+                raise place.error("profile-format", f"{key!r} is no text", "write such as 0 <= t <= 1, and 0.1*t")
+        found.append(Piece.of(parts["when"].value, parts["rate"].value, place))
+    return found
+
+
+def _entries(
+    node: yaml.Node | None, place: Place, known: tuple[str, ...] = (), required: tuple[str, ...] = ()
+) -> Iterator[tuple[str, yaml.Node]]:
+    """The entries of a mapping, each key once and, if some are known, one of them."""
+    if node is None or node.id != "mapping":
+        expected = " and ".join(known) if known else "one entry for each velocity"
+        raise place.error("profile-format", "is no mapping", f"expected {expected}")
+    seen: set[str] = set()
+    for key, value in node.value:
+        name = key.value if key.id == "scalar" else "?"
+        where = Place(place.source, _line(key), place.element)
+        if name in seen:
+            raise where.error("duplicate-name", f"{name!r} is there twice", "remove one of them")
+        if known and name not in known:
+            raise where.error("profile-format", f"{name!r} means nothing here", f"use {', '.join(known)}")
+        seen.add(name)
+        yield name, value
+    for name in required:
+        if name not in seen:
+            raise place.error("profile-format", f"{name!r} is missing", f"expected {' and '.join(required)}")
+
+
+def _line(node: yaml.Node) -> int:
+    return int(node.start_mark.line) + 1
+
+
+# ---------------------------------------------------------------------------------------------------- CSV
+
+
+def _table(text: str, source: str, between: Between) -> Table:
+    """A header ``t,joint1,joint2`` and rows of numbers."""
+    rows = csv.reader(io.StringIO(text, newline=""), strict=True)
+    header: list[str] = []
+    values: list[list[float]] = []
+    try:
+        for row in rows:
+            cells = [cell.strip() for cell in row]
+            if not any(cells):
+                continue
+            place = Place(source, rows.line_num)
+            if not header:
+                header = _header(cells, place)
+                continue
+            if len(cells) != len(header):
+                what = f"{len(cells)} columns, but the header has {len(header)}"
+                raise place.error("profile-table", what, f"expected {', '.join(header)}")
+            values.append([_number(cell, name, place) for cell, name in zip(cells, header, strict=True)])
+            if len(values) > 1 and not values[-1][0] > values[-2][0]:
+                what = f"t = {values[-1][0]:g} s comes after {values[-2][0]:g} s"
+                raise place.error("profile-table", what, "times must increase from row to row")
+    except csv.Error as error:
+        raise Place(source, rows.line_num).error("profile-table", f"is no CSV ({error})") from None
+    if len(values) < 2:
+        what = f"{len(values)} rows of numbers"
+        raise Place(source).error("profile-table", what, "expected a header t,joint1,… and at least two rows")
+    return Table(header[1:], [row[0] for row in values], [row[1:] for row in values], between, source)
+
+
+def _header(cells: list[str], place: Place) -> list[str]:
+    if cells[0] != "t":
+        raise place.error("profile-table", f"the first column is {cells[0]!r}", "expected a header t,joint1,…")
+    for i, name in enumerate(cells):
+        if not name:
+            raise place.error("profile-table", f"column {i + 1} has no name", "expected a header t,joint1,…")
+        if name in cells[:i]:
+            raise place.error("duplicate-name", f"{name!r} is there twice", "remove one of them")
+    return cells
+
+
+def _number(cell: str, name: str, place: Place) -> float:
+    try:
+        value = float(cell) if "_" not in cell else math.nan
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise place.error("profile-table", f"{name} is {cell!r}, no finite number", "write such as 0.1 or -1e-3")
+    return value
