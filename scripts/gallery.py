@@ -1,7 +1,7 @@
-"""Draw the bundled robots, each with its screws, into docs/gallery.
+"""Draw the bundled robots, each with its screws, and a workspace into docs/gallery.
 
 python scripts/gallery.py             # all
-python scripts/gallery.py scara_rrp   # some
+python scripts/gallery.py scara_rrp   # some; "circles" and "workspace" are names too
 
 It takes Chromium or Chrome; the pictures depend on its version, so nothing compares them.
 """
@@ -12,8 +12,9 @@ import sys
 from pathlib import Path
 
 import pinscrew as ps
+from pinscrew import files
 from pinscrew.description.catalogue import bundled
-from pinscrew.view import prepare
+from pinscrew.view import figures, plot_workspace, prepare
 from pinscrew.view.shapes import Group
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "gallery"
@@ -48,7 +49,7 @@ def main() -> None:
         model = prepare.prepare(robot)
         q = robot.configuration(POSES.get(entry.name, {}))
         file = FOLDER / f"{entry.name}.png"
-        prepare.write(file, prepare.picture(model, prepare.begin(model, q, draw=USUAL), WIDTH, HEIGHT))
+        files.write(file, prepare.picture(model, prepare.begin(model, q, draw=USUAL), WIDTH, HEIGHT))
         print(
             f"{file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file}: {file.stat().st_size} bytes"
         )
@@ -57,7 +58,12 @@ def main() -> None:
         q = model.robot.configuration(POSES["two_joint"])
         drawn: tuple[Group, ...] = ("links", "screws", "circles")
         file = FOLDER / "two_joint_circles.png"
-        prepare.write(file, prepare.picture(model, prepare.begin(model, q, draw=drawn), WIDTH, HEIGHT))
+        files.write(file, prepare.picture(model, prepare.begin(model, q, draw=drawn), WIDTH, HEIGHT))
+        print(f"{file.name}: {file.stat().st_size} bytes")
+    if not wanted or "workspace" in wanted:
+        file = FOLDER / "planar_2r_workspace.png"
+        swept = ps.sweep(ps.load("planar_2r"))
+        figures.save(plot_workspace.plot_sweep(swept, "manipulability"), file, dpi=80.0)
         print(f"{file.name}: {file.stat().st_size} bytes")
 
 

@@ -1,0 +1,125 @@
+"""Arrays with what they came from in one npz file: written whole or not at all, and read with suspicion."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+import zipfile
+import zlib
+from collections.abc import Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pinscrew import files
+from pinscrew.engines.base import Engine
+from pinscrew.engines.batch import Batch
+from pinscrew.engines.compiled import can_compile
+from pinscrew.errors import InputError
+from pinscrew.lockfile.writing import fingerprint
+from pinscrew.robot import Robot
+from pinscrew.workspace.axes import Axis
+
+__all__ = ["Arrays", "Metadata", "load", "provenance", "save"]
+
+Arrays: TypeAlias = dict[str, NDArray[Any]]
+Metadata: TypeAlias = dict[str, Any]
+
+METADATA: Final = "metadata"
+"""The array that holds the provenance, as JSON."""
+
+# What zip, zlib and numpy say of damaged files, or of files that claim to be larger than memory.
+_BROKEN: Final = (
+    *(OSError, EOFError, ValueError, KeyError, SyntaxError, TypeError, MemoryError, RuntimeError),
+    *(zipfile.BadZipFile, zlib.error, struct.error),
+)
+
+
+def provenance(robot: Robot, engine: Engine, frame: str, axes: tuple[Axis, ...]) -> Metadata:
+    """What numbers about a robot depend on: plain data, for `save`."""
+    engine_packages = ("llvmlite",) if engine.name == Batch.name and can_compile() else ()
+    return {
+        "robot": robot.name,
+        "fingerprint": fingerprint(robot),
+        "arguments": dict(robot.description.arguments),
+        "frame": frame,
+        "base": robot.base,
+        "coordinates": list(robot.coordinate_names),
+        "ranges": {axis.name: [axis.lower, axis.upper] for axis in axes},
+        "units": {axis.name: "rad" if axis.angle else "m" for axis in axes},
+        "engine": engine.name,
+        "versions": {name: version(name) for name in ("pinscrew", "numpy", *engine_packages)},
+    }
+
+
+def save(path: Path, schema: str, metadata: Metadata, arrays: Arrays) -> None:
+    """Write arrays and their provenance as npz.
+
+    Raises:
+        InputError: if the file can't be written.
+    """
+    text = json.dumps({"schema": schema, **metadata}, ensure_ascii=False, allow_nan=False)
+    out = io.BytesIO()
+    np.savez(out, **{METADATA: np.array(text), **arrays})  # type: ignore[arg-type]
+    files.write(path, out.getvalue())
+
+
+def load(path: Path, schema: str, shapes: Mapping[str, tuple[str, tuple[int | None, ...]]]) -> tuple[Metadata, Arrays]:
+    """Read what `save` wrote.
+
+    Args:
+        path: the file.
+        schema: what it must be.
+        shapes: kind of number (as in ``dtype.kind``) and lengths of the axes after the first of each array that must
+            be there, None for any; their first axes are equally long.
+
+    Returns:
+        the provenance, and all arrays.
+
+    Raises:
+        InputError: if there is no such file, or it is broken or something else.
+    """
+    arrays, cause = _read(path)
+    metadata: Any = None
+    if METADATA in arrays:
+        try:
+            metadata = json.loads(str(arrays.pop(METADATA)))
+        except (ValueError, RecursionError) as error:
+            cause = str(error)
+    found = metadata.get("schema") if isinstance(metadata, dict) else None
+    if not cause and found != schema:
+        cause = f"its schema is {found!r}"
+    if not cause:
+        wrong = [name for name, wanted in shapes.items() if name not in arrays or not _is(arrays[name], *wanted)]
+        lengths = {len(arrays[name]) for name in shapes if name not in wrong}
+        cause = f"the array {wrong[0]!r} is not in it, or not as it was written" if wrong else ""
+        cause = cause or ("its arrays have different lengths" if len(lengths) > 1 else "")
+    if cause:
+        raise InputError("workspace-file", f"is no {schema} file ({cause})", where=str(path))
+    del metadata["schema"]
+    return metadata, arrays
+
+
+def _is(array: NDArray[Any], kind: str, lengths: tuple[int | None, ...]) -> bool:
+    pairs = zip(array.shape[1:], lengths, strict=False)
+    return array.dtype.kind == kind and array.ndim == 1 + len(lengths) and all(b in (None, a) for a, b in pairs)
+
+
+def _read(path: Path) -> tuple[Arrays, str]:
+    """The arrays of an npz file, or why there are none."""
+    try:
+        stream = path.open("rb")
+    except (OSError, ValueError) as error:  # ValueError: a NUL character in the path
+        code = "no-file" if isinstance(error, FileNotFoundError) else "unreadable"
+        what = f"can't be read ({getattr(error, 'strerror', None) or error})"
+        raise InputError(code, what, where=str(path)) from None
+    with stream:
+        try:
+            archive = np.load(stream, allow_pickle=False)
+            return (dict(archive), "") if isinstance(archive, np.lib.npyio.NpzFile) else ({}, "it is one array")
+        except _BROKEN as error:
+            return {}, str(error) or type(error).__name__
