@@ -14,7 +14,7 @@ import urdfs
 from pinscrew.errors import AmbiguousTipError, InputError, UnknownNameError
 from pinscrew.typing import KINDS, FloatArray
 
-ENGINES = (ps.PoE, ps.Pinocchio)
+ENGINES = (ps.PoE, ps.Pinocchio, ps.Batch)
 BATCHES = ((), (1,), (5,), (2, 3), (0,), (2, 0, 3))
 # Numbers of coordinates: 0, 1, 3, and 9 with a quaternion.
 SHAPED = ("only_fixed", "single_revolute", "rotated", "floating_middle")
@@ -89,7 +89,8 @@ def test_what_counts_as_an_array(engine: Any) -> None:
         assert_equal(asked.jacobian_derivative(given_q, qd, "tool", "body"), expected[1])
     assert_equal(asked.fk([1, 0, -2]), asked.fk([1.0, 0.0, -2.0]))
     assert_equal(asked.fk(np.array([1, 0, -2], dtype=np.int8)), asked.fk([1.0, 0.0, -2.0]))
-    assert_equal(asked.fk(q.astype(np.float32)), asked.fk(q.astype(np.float32).astype(float)))
+    if engine is not ps.Batch:  # whose results are float32 then
+        assert_equal(asked.fk(q.astype(np.float32)), asked.fk(q.astype(np.float32).astype(float)))
 
 
 @pytest.mark.parametrize("engine", ENGINES)

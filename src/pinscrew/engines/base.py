@@ -6,15 +6,17 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Any, Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pinscrew.errors import InputError
+from pinscrew.manifold import quaternion_starts
 from pinscrew.robot import Robot
 from pinscrew.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
 
-__all__ = ["Answers", "CheckedEngine", "Engine", "JointView", "quaternion_starts"]
+__all__ = ["Answers", "CheckedEngine", "Engine", "JointView"]
 
 QUATERNION_TOLERANCE: Final = 1e-6
 """How far from 1 a quaternion's norm may be (float32 rounding); within it, it is normalised."""
@@ -73,6 +75,9 @@ class Engine(Protocol):
 
     def jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Jacobian of ``frame``: ``q`` (..., nq) to (..., 6, nv)."""
+
+    def fk_jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> tuple[FloatArray, FloatArray]:
+        """Pose and Jacobian of ``frame``: ``q`` (..., nq) to (..., 4, 4) and (..., 6, nv)."""
 
     def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian: ``q`` (..., nq) and ``qd`` (..., nv) to (..., 6, nv)."""
@@ -141,6 +146,10 @@ class CheckedEngine(ABC):
         flat, batch = self._coordinates(q)
         return self._jacobians(flat, frame, kind).reshape(*batch, 6, self._robot.nv)
 
+    def fk_jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> tuple[FloatArray, FloatArray]:
+        """Pose and Jacobian of ``frame``: `fk` and `jacobian`, which engines may do in one pass."""
+        return self.fk(q, frame), self.jacobian(q, frame, kind)
+
     def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian along the velocities ``qd``.
 
@@ -164,10 +173,7 @@ class CheckedEngine(ABC):
         """Twist (v, ω) of ``frame``: spatial, body or hybrid.
 
         Args:
-            q: coordinates, shape (..., nq), rad and m.
-            qd: velocities, shape (..., nv), rad/s and m/s; batch axes broadcast against those of ``q``.
-            frame: a link's name; by default the robot's tip.
-            kind: see `jacobian`.
+            q, qd, frame, kind: see `jacobian_derivative`.
 
         Returns:
             shape (..., 6), m/s and rad/s.
@@ -183,8 +189,7 @@ class CheckedEngine(ABC):
         """Everything about ``frames`` at a flat batch; the general way, which engines shorten.
 
         Args:
-            q: coordinates, shape (N, nq).
-            qd: velocities, shape (N, nv).
+            q, qd: shapes (N, nq) and (N, nv).
             frames: names of F links.
 
         Raises:
@@ -246,6 +251,12 @@ class CheckedEngine(ABC):
         return flat, flat_rates, [self._robot.frame(frame) for frame in frames]
 
     def _finite(self, values: ArrayLike, symbol: str, n: int, names: tuple[str, ...]) -> FloatArray:
+        array = self._shaped(values, symbol, n, names).astype(np.float64, copy=False)
+        self._refuse_not_finite(array, symbol, names)
+        return array
+
+    def _shaped(self, values: ArrayLike, symbol: str, n: int, names: tuple[str, ...]) -> NDArray[Any]:
+        """An array of numbers of the right shape, of the type that it came in."""
         try:
             given = np.asarray(values)
         except ValueError as error:  # rows of different lengths
@@ -254,17 +265,18 @@ class CheckedEngine(ABC):
         if given.dtype.kind not in "fiu":
             what = f"{symbol} is not an array of numbers but of {given.dtype}"
             raise InputError("not-numbers", what, where=self._robot.name)
-        array = given.astype(np.float64, copy=False)
-        if array.ndim == 0 or array.shape[-1] != n:
+        if given.ndim == 0 or given.shape[-1] != n:
             listed = ", ".join(names) if len(names) <= 12 else f"{', '.join(names[:12])}, …"
-            what = f"{symbol} has shape {array.shape}"
+            what = f"{symbol} has shape {given.shape}"
             remedy = f"expected (..., {n}): {listed}" if n else "expected (..., 0): the robot has no coordinates"
             raise InputError("shape", what, where=self._robot.name, remedy=remedy)
-        if not np.isfinite(array).all():
-            index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        return given
+
+    def _refuse_not_finite(self, array: NDArray[Any], symbol: str, names: tuple[str, ...]) -> None:
+        if not (finite := np.isfinite(array)).all():
+            index = tuple(int(i) for i in np.argwhere(~finite)[0])
             what = f"{symbol} holds {array[index]} at index {index} ({names[index[-1]]})"
             raise InputError("not-finite", what, where=self._robot.name, remedy="give finite numbers")
-        return array
 
     def _with_unit_quaternions(self, q: FloatArray) -> FloatArray:
         q = q.copy()
@@ -277,12 +289,6 @@ class CheckedEngine(ABC):
                 raise InputError("quaternion", what, where=self._robot.name, remedy="normalise it")
             q[:, start : start + 4] /= norms
         return q
-
-
-def quaternion_starts(robot: Robot) -> tuple[int, ...]:
-    """Where the quaternions of floating joints start in ``q``."""
-    floating = (m for m in robot.mechanism.motions if m.joint.type == "floating")
-    return tuple(motion.q + 3 for motion in floating)
 
 
 def _flat(array: FloatArray) -> FloatArray:

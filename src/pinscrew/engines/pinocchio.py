@@ -15,43 +15,32 @@ import tempfile
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from math import hypot, isfinite
 from typing import Any, Final
 
 import numpy as np
 import pinocchio as pin
+from numpy import ndarray
 
-from pinscrew.description import markup
 from pinscrew.engines.base import Answers, CheckedEngine, JointView
+from pinscrew.engines.expansion import Driven, Expansion, read_mimics
 from pinscrew.errors import EngineError, UnsupportedError
 from pinscrew.robot import UNIVERSE, Robot
-from pinscrew.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
 
 __all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Pinocchio"]
 
 MAX_COORDINATES: Final = 200
 """Pinocchio's data grows with the cube of the velocities: 0.6 GB for 200, 8 GB for 500."""
-
+_DOUBLE: Final = np.dtype(np.float64)
 MAX_DEPTH: Final = 1000
 """Longest chain of moving joints; Pinocchio's stack overflows at about 3500."""
 
-_REFERENCE: Final[dict[JacobianKind, Any]] = {
+_REFERENCE: Final[dict[KindLike, Any]] = {
     "spatial": pin.ReferenceFrame.WORLD,
     "body": pin.ReferenceFrame.LOCAL,
     "hybrid": pin.ReferenceFrame.LOCAL_WORLD_ALIGNED,
 }
-
-
-@dataclass(frozen=True, slots=True)
-class _Driven:
-    """How one joint of the model gets its coordinates from ours."""
-
-    q: int
-    nq: int
-    source: int
-    multiplier: float
-    offset: float
-    kind: str
 
 
 class Pinocchio(CheckedEngine):
@@ -75,10 +64,15 @@ class Pinocchio(CheckedEngine):
         _check_size(robot)
         self.model = _build(robot)
         self._threads = threading.local()
-        self._mimics = _read_mimics(robot)
-        self._driven, self._fold = self._map_coordinates()
-        self._frames = {name: self._frame_id(name) for name in robot.frame_names}
+        self._mimics = read_mimics(robot)
+        self._expansion, self._fold = self._map_coordinates()
+        self._frames: dict[str | None, int] = {name: self._frame_id(name) for name in robot.frame_names}
         self._plain = bool(np.array_equal(self._fold, np.eye(robot.nv)))
+        ones = np.isin(self._fold, (0.0, 1.0)).all() and (self._fold.sum(axis=0) == 1.0).all()
+        self._columns = self._fold.argmax(axis=0) if ones and self._fold.size else None
+        self._identical = self._expansion.identical
+        # The shape of a configuration that takes the short way; nv = 1 gives Pinocchio's Jacobians another shape.
+        self._one = (robot.nq,) if self._expansion.scalar and self.model.nv > 1 else None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._robot,)
@@ -114,7 +108,58 @@ class Pinocchio(CheckedEngine):
             limits = (float(self.model.lowerPositionLimit[at]), float(self.model.upperPositionLimit[at]))
         return JointView(kind, parent, child, limits, self._mimics.get(frame.name))
 
-    def _map_coordinates(self) -> tuple[tuple[_Driven, ...], FloatArray]:
+    # The checks that are made for batches take many times as long as Pinocchio's answer to one configuration, so that
+    # goes a short way. What that does not know (None for the tip, aliases, a thread's first call) goes the long one.
+
+    def fk(self, q: ArrayLike, frame: str | None = None) -> FloatArray:
+        """Pose of ``frame`` in the base frame; see `CheckedEngine.fk`."""
+        x = self._alone(q)
+        try:
+            index, data = self._frames[frame], self._threads.data
+        except (AttributeError, KeyError, TypeError):
+            x = None
+        if x is None:
+            return super().fk(q, frame)
+        pin.forwardKinematics(self.model, data, x)
+        pose: FloatArray = pin.updateFramePlacement(self.model, data, index).homogeneous
+        return pose
+
+    def jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
+        """Jacobian of ``frame``; see `CheckedEngine.jacobian`."""
+        x = self._alone(q)
+        try:
+            index, reference, data = self._frames[frame], _REFERENCE[kind], self._threads.data
+        except (AttributeError, KeyError, TypeError):
+            x = None
+        if x is None:
+            return super().jacobian(q, frame, kind)
+        J: FloatArray = pin.computeFrameJacobian(self.model, data, x, index, reference)
+        return J if self._plain else self._folded(J)
+
+    def fk_jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> tuple[FloatArray, FloatArray]:
+        """Pose and Jacobian of ``frame``; see `CheckedEngine.fk_jacobian`."""
+        x = self._alone(q)
+        try:
+            index, reference, data = self._frames[frame], _REFERENCE[kind], self._threads.data
+        except (AttributeError, KeyError, TypeError):
+            x = None
+        if x is None:
+            return super().fk_jacobian(q, frame, kind)
+        model = self.model
+        pin.computeJointJacobians(model, data, x)
+        pose: FloatArray = pin.updateFramePlacement(model, data, index).homogeneous
+        J: FloatArray = pin.getFrameJacobian(model, data, index, reference)
+        return pose, J if self._plain else self._folded(J)
+
+    def _alone(self, q: Any) -> FloatArray | None:
+        """What Pinocchio takes for ``q``, if that is one good configuration of joints with one value each."""
+        if type(q) is ndarray and q.shape == self._one and q.dtype is _DOUBLE:
+            values = q.tolist()
+            if isfinite(hypot(*values)):  # what is not may only have overflowed: the long way looks closer
+                return q if self._identical else self._expansion.one(q, values)
+        return None
+
+    def _map_coordinates(self) -> tuple[Expansion, FloatArray]:
         """The source of each model joint's coordinates, and the matrix F with model velocity = F @ ours."""
         q_of, v_of = self._robot.mechanism.coordinates.q, self._robot.mechanism.coordinates.v
         driven = []
@@ -128,10 +173,10 @@ class Pinocchio(CheckedEngine):
                 what = f"Pinocchio's joint {name!r} has no coordinate among {', '.join(q_of) or 'none'}"
                 raise EngineError("pinocchio-coordinates", what, where=self._robot.name)
             kind = _kind(joint)
-            driven.append(_Driven(joint.idx_q, joint.nq, q_of[master], multiplier, offset, kind))
+            driven.append(Driven(joint.idx_q, joint.nq, q_of[master], multiplier, offset, kind))
             rows = np.arange(joint.idx_v, joint.idx_v + joint.nv)
             fold[rows, v_of[master] + np.arange(joint.nv)] = multiplier
-        return tuple(driven), fold
+        return Expansion(tuple(driven), self.model.nq), fold
 
     def _frame_id(self, name: str) -> int:
         if self._robot.floating_base and name == UNIVERSE:
@@ -140,31 +185,15 @@ class Pinocchio(CheckedEngine):
             raise EngineError("pinocchio-frames", f"Pinocchio's model has no link {name!r}", where=self._robot.name)
         return int(self.model.getFrameId(name, pin.FrameType.BODY))
 
-    def _model_q(self, q: FloatArray) -> FloatArray:
-        """Our coordinates (N, nq) as Pinocchio's (N, model.nq)."""
-        out = np.empty((len(q), self.model.nq))
-        for joint in self._driven:
-            target = out[:, joint.q : joint.q + joint.nq]
-            if joint.kind == "floating":
-                target[:] = q[:, joint.source : joint.source + 7]
-            elif joint.kind == "planar":
-                target[:, :2] = q[:, joint.source : joint.source + 2]
-                _store_angle(target[:, 2:], q[:, joint.source + 2])
-            else:
-                value = joint.multiplier * q[:, joint.source] + joint.offset
-                if joint.nq == 2:
-                    _store_angle(target, value)
-                else:
-                    target[:, 0] = value
-        return out
-
     def _folded(self, J: FloatArray) -> FloatArray:
-        return J if self._plain else J @ self._fold
+        if self._plain:
+            return J
+        return J @ self._fold if self._columns is None else J.take(self._columns, axis=-1)
 
     def _poses(self, q: FloatArray, frame: str) -> FloatArray:
         out = np.empty((len(q), 4, 4))
         model, data, index = self.model, self._data, self._frames[frame]
-        for i, x in enumerate(self._model_q(q)):
+        for i, x in enumerate(self._expansion.all(q)):
             pin.forwardKinematics(model, data, x)
             out[i] = pin.updateFramePlacement(model, data, index).homogeneous
         return out
@@ -172,7 +201,7 @@ class Pinocchio(CheckedEngine):
     def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         out = np.empty((len(q), 6, self.model.nv))
         model, data, index, reference = self.model, self._data, self._frames[frame], _REFERENCE[kind]
-        for i, x in enumerate(self._model_q(q)):
+        for i, x in enumerate(self._expansion.all(q)):
             out[i] = pin.computeFrameJacobian(model, data, x, index, reference).reshape(6, model.nv)
         return self._folded(out)
 
@@ -182,7 +211,7 @@ class Pinocchio(CheckedEngine):
     def _velocities(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         out = np.empty((len(q), 6))
         model, data, index, reference = self.model, self._data, self._frames[frame], _REFERENCE[kind]
-        for i, (x, rates) in enumerate(zip(self._model_q(q), qd @ self._fold.T, strict=True)):
+        for i, (x, rates) in enumerate(zip(self._expansion.all(q), qd @ self._fold.T, strict=True)):
             pin.forwardKinematics(model, data, x, rates)
             out[i] = pin.getFrameVelocity(model, data, index, reference).vector
         return out
@@ -196,14 +225,15 @@ class Pinocchio(CheckedEngine):
         poses = np.empty((len(q), len(indices), 4, 4))
         jacobians = {kind: np.zeros(shape) for kind in KINDS}
         derivatives = {kind: np.zeros(shape) for kind in KINDS}
-        for i, (x, rates) in enumerate(zip(self._model_q(q), qd @ self._fold.T, strict=True)):
+        for i, (x, rates) in enumerate(zip(self._expansion.all(q), qd @ self._fold.T, strict=True)):
             pin.computeJointJacobiansTimeVariation(model, data, x, rates)
             pin.updateFramePlacements(model, data)
             for j, index in enumerate(indices):
                 poses[i, j] = data.oMf[index].homogeneous
                 if not model.nv:
                     continue  # getFrameJacobian ends in a segmentation fault there
-                for kind, reference in _REFERENCE.items():
+                for kind in KINDS:
+                    reference = _REFERENCE[kind]
                     J = pin.getFrameJacobian(model, data, index, reference)
                     dJ = pin.getFrameJacobianTimeVariation(model, data, index, reference)
                     jacobians[kind][i, j] = J.reshape(6, model.nv)
@@ -215,10 +245,6 @@ class Pinocchio(CheckedEngine):
         )
 
 
-def _store_angle(out: FloatArray, angle: FloatArray) -> None:
-    out[:, 0], out[:, 1] = np.cos(angle), np.sin(angle)
-
-
 def _kind(joint: Any) -> str:
     """What a joint of Pinocchio's is, in our words."""
     name = joint.shortname()
@@ -227,18 +253,6 @@ def _kind(joint: Any) -> str:
     if "Planar" in name:
         return "planar"
     return "prismatic" if name.startswith("JointModelP") else "revolute"
-
-
-def _read_mimics(robot: Robot) -> dict[str, tuple[str, float, float]]:
-    """The mimic joints of the URDF (checked when it was loaded): joint followed, multiplier, offset."""
-    mimics = {}
-    for joint in markup.parse(robot.description.text, robot.description.file).all("joint"):
-        for mimic in joint.all("mimic"):
-            if joint.attributes["type"] != "fixed":
-                multiplier = float(mimic.attributes.get("multiplier", "1"))
-                offset = float(mimic.attributes.get("offset", "0"))
-                mimics[joint.attributes["name"]] = (mimic.attributes["joint"], multiplier, offset)
-    return mimics
 
 
 def _check_size(robot: Robot) -> None:

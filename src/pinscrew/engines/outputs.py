@@ -1,0 +1,72 @@
+"""What a batch call may be given beside its question: arrays to write to, and a number of threads."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pinscrew.errors import InputError
+from pinscrew.memory import free_bytes
+
+__all__ = ["Results", "outputs", "thread_count"]
+
+Results: TypeAlias = NDArray[np.floating[Any]]
+
+SMALL: Final = 2**28
+"""Bytes of results that are allocated without asking whether they are free."""
+
+
+def outputs(
+    given: Sequence[Results | None], shapes: Sequence[tuple[int, ...]], q: NDArray[Any], robot: str
+) -> list[Results]:
+    """The arrays to write results to: those given, checked, or new ones of the type of the coordinates.
+
+    Args:
+        given: arrays, or None for each.
+        shapes: what they must have.
+        q: the coordinates.
+        robot: its name, for errors.
+
+    Raises:
+        InputError: if an array given is not fit to write to, or new ones need more memory than is free.
+    """
+    if all(array is None for array in given):
+        needed = sum(int(np.prod(shape)) for shape in shapes) * q.dtype.itemsize
+        if needed > SMALL and needed > (free := free_bytes()):
+            what = f"{len(q)} configurations give {needed / 1e9:.3g} GB of results, but {free / 1e9:.3g} GB are free"
+            remedy = "ask for blocks of them, with out= to use the same memory again, or use reduce"
+            raise InputError("memory", what, where=robot, remedy=remedy)
+        return [np.empty(shape, q.dtype) for shape in shapes]
+    kind = np.float32 if getattr(given[0], "dtype", None) == np.float32 else np.float64
+    return [_checked(array, shape, kind, q, robot) for array, shape in zip(given, shapes, strict=True)]
+
+
+def _checked(array: Results | None, shape: tuple[int, ...], kind: type, q: NDArray[Any], robot: str) -> Results:
+    if isinstance(array, np.ndarray) and array.shape == shape and array.dtype == kind:
+        if np.may_share_memory(array, q):
+            raise InputError("out", "out overlaps q", where=robot, remedy="give an array of its own")
+        if array.flags.carray:  # C-contiguous, aligned and writeable
+            return array
+        found = "an array that is read-only or not contiguous"
+    else:
+        found = f"shape {array.shape} of {array.dtype}" if isinstance(array, np.ndarray) else type(array).__name__
+    remedy = f"give a writeable, C-contiguous array of float64, or all of float32, here of shape {shape}"
+    raise InputError("out", f"out has {found}", where=robot, remedy=remedy)
+
+
+def thread_count(threads: int | None) -> int:
+    """A number of threads, checked; by default the cores that the process may use.
+
+    Raises:
+        InputError: if it is below 1 or more than there are.
+    """
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    if threads is None:
+        return cores
+    if not 1 <= threads <= cores:
+        raise InputError("threads", f"threads={threads}", remedy=f"give 1 to {cores}, the cores of this machine")
+    return threads
