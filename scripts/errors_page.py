@@ -18,8 +18,9 @@ INTRODUCTION = """\
 # Errors
 
 Every error that pinscrew raises on purpose is a `pinscrew.PinscrewError`. Its message says *where: what; what to do*,
-and its parts are attributes. `code` is a stable word for the kind of mistake. On the command line an error is one line
-on standard error, and the exit status is 2.
+and its parts are attributes. `code` is a stable word for the kind of mistake. On the command line such an error is one
+line on standard error, a mistake in the command itself comes with how it is used, and the exit status is 2. The classes
+are in `pinscrew.errors`.
 
 This page is written by `scripts/errors_page.py`.
 

@@ -9,6 +9,7 @@ import pickle
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -22,6 +23,7 @@ import urdfs
 from pinscrew.description.catalogue import bundled, example_robots
 from pinscrew.engines.batch import BLOCK
 from pinscrew.engines.compiled import chain, kernel, walk
+from pinscrew.engines.compiled.chain import Question
 from pinscrew.engines.compiled.kernel import CHUNK, SLICE
 from pinscrew.errors import InputError, UnknownNameError
 from pinscrew.typing import KINDS, FloatArray
@@ -202,6 +204,19 @@ def test_manipulability_in_closed_form() -> None:
     np.testing.assert_allclose(batch.manipulability(q, part="translation"), 0.7, rtol=1e-15)
 
 
+def test_manipulability_where_squares_are_subnormal() -> None:
+    """The reciprocal of such a square is infinite: five parallel axes, all but in one line, gave NaN."""
+    origins = ["0 0 0", *["0.5 0 0"] * 4]
+    links = ["l0", "l1", "l2", "l3", "l4", "tool"]
+    pairs = zip(origins, links, links[1:], strict=False)
+    joints = [urdfs.joint(f"to_{child}", "revolute", parent, child, xyz=xyz) for xyz, parent, child in pairs]
+    batch = ps.Batch(urdfs.load(urdfs.robot(*joints, links=" ".join(links))))
+    for angle in (1e-150, 1e-154, 1e-155, 1e-158, 1e-160, 5e-324):
+        q = np.full((3, 5), angle)
+        for part in ("all", "translation"):
+            np.testing.assert_array_equal(batch.manipulability(q, "tool", part), 0.0)
+
+
 def test_reduce() -> None:
     """The blocks are all there, in order, with their rows."""
     batch = make("scara_rrp")
@@ -218,6 +233,9 @@ def test_reduce() -> None:
     assert batch.reduce(q[:0], None, "hybrid", collect, []) == []
     with pytest.raises(InputError, match="one axis"):
         batch.reduce(q[0], None, "hybrid", collect, [])
+    q[BLOCK + 5, 1] = np.nan
+    with pytest.raises(InputError, match=rf"nan at index \({BLOCK + 5}, 1\)"):
+        batch.reduce(q, None, "hybrid", collect, [])
 
 
 # -------------------------------------------------------------------------------------------------- buffers
@@ -292,6 +310,76 @@ def test_threads_share_the_work_and_the_engine() -> None:
         np.testing.assert_array_equal(found[i], alone[i:])
 
 
+def test_threads_that_ask_before_it_is_compiled() -> None:
+    """None of them falls back to numpy, whose last bits are others."""
+    robot = ps.load("spherical_rrp")
+    q = sample(robot, 64)
+    expected = ps.Batch(robot).fk_jacobian(q, "tool", "hybrid")
+    batch, found, start = ps.Batch(robot), [], threading.Barrier(4)
+
+    def ask() -> None:
+        start.wait()
+        found.append(batch.fk_jacobian(q, "tool", "hybrid", threads=1))
+
+    callers = [threading.Thread(target=ask) for _ in range(4)]
+    for caller in callers:
+        caller.start()
+    for caller in callers:
+        caller.join()
+    for T, J in found:
+        np.testing.assert_array_equal(T, expected[0])
+        np.testing.assert_array_equal(J, expected[1])
+
+
+def test_an_interrupt_ends_the_helpers_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Or they would write to arrays that are gone, and end the process with a segmentation fault."""
+    batch = make("planar_rrr")
+    q = sample(batch.robot, 40 * SLICE)
+    expected = batch.fk(q, threads=1)
+    compiled = batch._kernels[("tool",), Question(poses=True), (False, False)]
+    assert compiled is not None
+    right, slices, helper_works = compiled._compiled.call, [], threading.Event()
+
+    def call(*arguments: Any) -> Any:
+        if threading.current_thread() is threading.main_thread():
+            assert helper_works.wait(60)
+            raise KeyboardInterrupt
+        slices.append(arguments)
+        helper_works.set()
+        time.sleep(0.05)
+        return right(*arguments)
+
+    monkeypatch.setattr(compiled._compiled, "call", call)
+    monkeypatch.setattr("pinscrew.engines.batch.thread_count", int)
+    out = np.zeros_like(expected)
+    with pytest.raises(KeyboardInterrupt):
+        batch.fk(q, out=out, threads=2)
+    done, written = len(slices), out.copy()
+    assert done < 5
+    time.sleep(0.2)
+    assert len(slices) == done
+    np.testing.assert_array_equal(out, written)
+    monkeypatch.undo()
+    np.testing.assert_array_equal(batch.fk(q, out=out), expected)
+
+
+def test_questions_too_large_to_compile(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some hundred joints and frames would take minutes, and then more stack than there is."""
+    batch = ps.Batch(ps.load("planar_rrr"))
+    q = sample(batch.robot, 20)
+    frames = list(batch.robot.frame_names)
+    monkeypatch.setattr("pinscrew.engines.batch.MOST_NUMBERS", len(frames) * (16 + 6 * 3) - 1)
+    T, J = batch.fk_jacobian(q, frames, "body")
+    assert list(batch._kernels.values()) == [None]
+    for i, frame in enumerate(frames):
+        np.testing.assert_allclose(T[:, i], ps.Pinocchio(batch.robot).fk(q, frame), rtol=0, atol=TOLERANCE)
+        expected = ps.Pinocchio(batch.robot).jacobian(q, frame, "body")
+        np.testing.assert_allclose(J[:, i], expected, rtol=0, atol=TOLERANCE)
+    batch.fk_jacobian(q, frames[1:], "body")
+    assert None in batch._kernels.values()
+    assert any(batch._kernels.values())
+
+
 def test_copies() -> None:
     batch = make("planar_rrr")
     q = sample(batch.robot, 3)
@@ -317,13 +405,15 @@ def test_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
         batch.fk([["a", "b", "c"]])
     with pytest.raises(UnknownNameError, match="no_such"):
         batch.fk(q, ["tool", "no_such"])
+    with pytest.raises(UnknownNameError, match="no frame 5"):
+        batch.fk(q, 5)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="no frames"):
         batch.fk(q, [])
     with pytest.raises(InputError, match="translation"):
         batch.manipulability(q, part="both")  # type: ignore[arg-type]
-    for threads in (0, -1, 10_000):
+    for threads in (0, -1, 10_000, 1.5, "2"):
         with pytest.raises(InputError, match="cores of this machine"):
-            batch.fk(q, threads=threads)
+            batch.fk(q, threads=threads)  # type: ignore[arg-type]
     monkeypatch.setattr("pinscrew.engines.outputs.SMALL", 0)
     monkeypatch.setattr("pinscrew.engines.outputs.free_bytes", lambda: 10)
     with pytest.raises(InputError, match="blocks") as caught:
@@ -353,6 +443,11 @@ def test_bad_out() -> None:
         batch.fk(q_inside, out=both[8:72].reshape(4, 4, 4))
     with pytest.raises(InputError, match="shape"):
         batch.fk_jacobian(q, None, "body", out=(np.empty((4, 4, 4)), np.empty((4, 6, 3), np.float32)))
+    with pytest.raises(InputError, match="overlaps"):
+        batch.fk_jacobian(q, None, "body", out=(both[:64].reshape(4, 4, 4), both[60:132].reshape(4, 6, 3)))
+    for few in ((), (np.empty((4, 4, 4)),), np.empty((4, 4, 4))):
+        with pytest.raises(InputError, match=f"out has {len(few)} arrays; give 2"):
+            batch.fk_jacobian(q, None, "body", out=few)  # type: ignore[arg-type]
 
 
 # ------------------------------------------------------------------------------------------- seen to fail

@@ -24,6 +24,11 @@ FEW = ("--samples", "2")
 SLOW = {"pinscrew verify", "pinscrew verify --all --samples 100"}
 SHOWN = {"pinscrew show scara -q 45deg,pi/4,0.1", "pinscrew show two_joint --qd 1,0.5 --draw screws,circles"}
 """Examples that open a browser and wait for Ctrl-C; `tests/view` runs such."""
+IN_GIT = {
+    "pinscrew diff HEAD~1:arm.urdf arm.urdf",
+    "pinscrew diff main:./arm.urdf.xacro arm.urdf.xacro --tolerance-mm 0.01",
+}
+"""Examples that need a git repository; `tests/changes` runs such."""
 
 
 def loaded(text: str) -> Any:
@@ -107,7 +112,7 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     file.write_text(urdfs.rotated())
     lines = [line.strip() for name in _COMMANDS for line in ok(name, "--help").out.splitlines()]
     lines += [line.strip() for line in ok("--help").out.splitlines()]
-    examples = {line for line in lines if line.startswith("pinscrew ")} - SLOW - SHOWN
+    examples = {line for line in lines if line.startswith("pinscrew ")} - SLOW - SHOWN - IN_GIT
     assert len(examples) >= 8
     for example in sorted(examples):
         done = ok(*example.split()[1:])

@@ -109,13 +109,13 @@ GARBAGE = (
 
 @pytest.mark.parametrize(("text", "value"), NUMBERS.items())
 def test_number(text: str, value: float) -> None:
-    assert number(text) == pytest.approx(value, rel=1e-15, abs=0)
+    assert number(text, "-q") == pytest.approx(value, rel=1e-15, abs=0)
 
 
 @pytest.mark.parametrize("text", GARBAGE)
 def test_what_is_not_a_number(text: str) -> None:
     with pytest.raises(click.BadParameter) as caught:
-        number(text)
+        number(text, "-q")
     assert caught.value.message.endswith("is not a number; write such as 0.1, pi/4 or 45deg")
     assert len(caught.value.message) < 300
     assert caught.value.param_hint == "-q"
@@ -125,13 +125,13 @@ def test_what_is_not_a_number(text: str) -> None:
 @example(5e-324)
 @example(-1.7976931348623157e308)
 def test_every_float_is_read_as_it_is_written(value: float) -> None:
-    assert number(repr(value)) == value
+    assert number(repr(value), "-q") == value
 
 
 @given(st.text(st.sampled_from("0123456789.e+-*/() pideg"), max_size=30))
 def test_any_text_is_a_finite_number_or_none(text: str) -> None:
     try:
-        value = number(text)
+        value = number(text, "-q")
     except click.BadParameter:
         return
     assert math.isfinite(value)
@@ -179,7 +179,8 @@ WRONG = {
     "1,2,3,": "4 values, but drone takes 3: joint1, joint2, joint3",
     "1,,3": "'' is not a number; write such as 0.1, pi/4 or 45deg",
     "1,two,3": "'two' is not a number; write such as 0.1, pi/4 or 45deg",
-    "joint1=1,2,3": "'2' has no name; give all values by name, or none",
+    "joint1=1,2,3": "'2' is not NAME=VALUE; give all values by name, or none",
+    "joint2=1,=1": "'=1' is not NAME=VALUE; give all values by name, or none",
     "joint1=": "'' is not a number; write such as 0.1, pi/4 or 45deg",
     "joint1==1": "'=1' is not a number; write such as 0.1, pi/4 or 45deg",
     "joint1=1,joint1=2": "'joint1' is given twice",
@@ -196,7 +197,7 @@ def test_wrong_configuration(command: tuple[str, ...], values: str, message: str
 
 
 @pytest.mark.parametrize("command", ASK.values(), ids=ASK)
-@pytest.mark.parametrize("name", ["elbow", "", "joint1.x"])
+@pytest.mark.parametrize("name", ["elbow", "joint1.x"])
 def test_unknown_joint(command: tuple[str, ...], name: str) -> None:
     expected = f"drone: there is no coordinate {name!r}; known are: joint1, joint2, joint3"
     assert refused(*command, "-q", f"joint2=1,{name}=1") == expected

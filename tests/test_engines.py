@@ -75,6 +75,19 @@ def test_shapes(engine: Any, name: str, shape: tuple[int, ...]) -> None:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("name", SHAPED)
+def test_pose_and_jacobian_together(engine: Any, name: str) -> None:
+    """As `fk` and `jacobian` answer them apart."""
+    asked = make(engine, name)
+    for shape in BATCHES:
+        q, _ = batch(asked, shape)
+        for kind in KINDS:
+            T, J = asked.fk_jacobian(q, "tool", kind)
+            assert_close(T, asked.fk(q, "tool"))
+            assert_close(J, asked.jacobian(q, "tool", kind))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
 def test_what_counts_as_an_array(engine: Any) -> None:
     asked = make(engine, "rotated")
     q, qd = batch(asked, (4,))

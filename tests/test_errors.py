@@ -30,7 +30,7 @@ EXAMPLES = [
 
 def codes_in_use() -> Iterator[tuple[str, str, str]]:
     """The callee, code and file of every call that makes an error or a warning."""
-    makers = {name for name in vars(errors) if name.endswith("Error")} | {"error", "warn", "PinscrewWarning"}
+    makers = {name for name in vars(errors) if name.endswith("Error")} | {"error", "warn", "PinscrewWarning", "whole"}
     makers = makers - {"MissingExtraError", "AmbiguousTipError"} | {
         "_RefusedError"
     }  # these two have a code of their own
@@ -69,9 +69,10 @@ def test_pickling_keeps_everything(error: errors.PinscrewError) -> None:
 
 
 def test_pickling_keeps_warnings() -> None:
-    warning = errors.PinscrewWarning("axis-normalised", "a.urdf:3: joint 'j': the axis is long")
+    warning = errors.PinscrewWarning("axis-normalised", "joint 'j': the axis is long", file="a.urdf", line=3)
     copy = pickle.loads(pickle.dumps(warning))  # noqa: S301 (our own bytes)
-    assert (type(copy), str(copy), copy.code) == (errors.PinscrewWarning, str(warning), warning.code)
+    assert (type(copy), str(copy), vars(copy)) == (errors.PinscrewWarning, str(warning), vars(warning))
+    assert str(warning) == "a.urdf:3: joint 'j': the axis is long"
 
 
 def test_messages_say_where_what_and_what_to_do() -> None:

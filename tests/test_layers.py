@@ -51,7 +51,7 @@ BAD = {
     "xacro": ("description.expand", "import xacro", "that is for description._xacro_worker"),
     "click": ("verification.formats", "def f():\n    import click", "that is for cli"),
     "a prefix": ("click_things", "import rich", "that is for cli"),
-    "scipy": ("lie.so3", "import scipy.linalg", "that is for nobody"),
+    "scipy": ("lie.so3", "import scipy.linalg", "that is for workspace"),
 }
 
 

@@ -19,7 +19,7 @@ def test_as_pinocchio_does(name: str, floating_base: bool, size: float) -> None:
     engine = ps.Pinocchio(robot)
     q, qd = urdfs.sample(robot, 50)
     moved = integrate(robot, q, size * qd)
-    for start, step, end in zip(engine._model_q(q), size * qd, engine._model_q(moved), strict=True):
+    for start, step, end in zip(engine._expansion.all(q), size * qd, engine._expansion.all(moved), strict=True):
         expected = pin.integrate(engine.model, start, engine._fold @ step)
         # A quaternion and its negative are one rotation; angles of up to 50 rad are rounded by 4e-15.
         np.testing.assert_allclose(poses(engine, end), poses(engine, expected), atol=1e-13 * max(1.0, size))

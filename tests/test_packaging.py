@@ -37,6 +37,7 @@ def test_the_wheel_holds_every_robot_and_the_type_marker(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {f"pinscrew/_robots/{entry.file.name}" for entry in bundled()} <= names
     assert {"pinscrew/py.typed", "pinscrew/_robots/catalogue.json"} <= names
+    assert "pinscrew/_robots/profiles/anthropomorphic_rrr.yaml" in names
     assert not [name for name in names if name.startswith(("tests/", "scripts/"))]
 
 

@@ -274,6 +274,17 @@ def test_refusals_carry_pinocchios_words(text: str, words: str, capfd: pytest.Ca
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_an_angle_that_its_multiplier_makes_infinite() -> None:
+    """Alone or among others a configuration gets the same answer, not an error of Python's cosine."""
+    robot = urdfs.load(urdfs.mimic_continuous())
+    engine = ps.Pinocchio(robot)
+    q = np.array([[0.0, 0.1], [1e308, 0.1]])
+    poses = engine.fk(q)
+    assert not np.isfinite(poses[1]).all()
+    np.testing.assert_array_equal(engine.fk(q[1]), poses[1])
+
+
 def test_standard_error_is_given_back(capfd: pytest.CaptureFixture[str]) -> None:
     refused("no XML")
     sys.stderr.write("python ")

@@ -6,6 +6,7 @@ import dataclasses
 import subprocess
 import sys
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 import pinscrew as ps
 import urdfs
-from pinscrew.engines.poe import BLOCK
+from pinscrew.engines.poe import BLOCK, _Chain
 from pinscrew.mechanism import JointMotion
 from pinscrew.typing import KINDS, FloatArray, JacobianKind
 
@@ -92,6 +93,25 @@ def test_product_of_exponentials(name: str, floating_base: bool) -> None:
     for frame in poe.robot.frame_names:
         off = np.abs(poe.fk(q, frame) - product(poe.robot, q, frame)).max(axis=(1, 2))
         assert (off <= 90 * EPSILON * np.array([size(poe.robot, x) for x in q])).all()
+
+
+def test_pose_and_jacobian_go_down_the_tree_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    engine = make("mimic_chain")
+    q, _ = urdfs.sample(engine.robot, BLOCK + 1)
+    frame = engine.robot.frame_names[-1]
+    apart = engine.fk(q, frame), engine.jacobian(q, frame, "body")
+    begun: list[int] = []
+    begin = _Chain.__init__
+
+    def counted(self: _Chain, *given: Any) -> None:
+        begun.append(1)
+        begin(self, *given)
+
+    monkeypatch.setattr(_Chain, "__init__", counted)
+    together = engine.fk_jacobian(q, frame, "body")
+    assert len(begun) == 2, "one way for each block"
+    for found, expected in zip(together, apart, strict=True):
+        np.testing.assert_array_equal(found, expected)
 
 
 # -------------------------------------------------------------------------------------- finite differences

@@ -27,6 +27,8 @@ XACRO = ARM.replace('name="small"', 'name="small" xmlns:xacro="http://www.ros.or
 XACRO = XACRO.replace('"0.4 0 0"', '"$(arg l1) 0 0"')
 CHECKS = verification.check_names(100)
 OPTIONS = ("--pinscrew", "--pinscrew-samples=2", "-p", "no:cacheprovider", "-p", "no:xdist", "-rfsE", "-W", "default")
+LIGHT = ("-p", "no:hypothesispytest")
+"""For processes of their own: that plugin takes a second to load."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -76,7 +78,7 @@ def disagree(monkeypatch: pytest.MonkeyPatch, old: str, new: str) -> None:
     """Let Pinocchio be given another robot than the PoE engine."""
     assert ARM.count(old) == 1
     other = urdfs.load(ARM.replace(old, new))
-    monkeypatch.setattr(verification, "_default_engines", lambda robot: (ps.PoE(robot), ps.Pinocchio(other)))
+    monkeypatch.setattr(verification, "pair_of", lambda robot: (ps.PoE(robot), ps.Pinocchio(other)))
 
 
 MOVED = ("0.4 0 0", "0.401 0 0")
@@ -109,7 +111,7 @@ def test_nothing_without_the_option(project: pytest.Pytester) -> None:
             assert not {"numpy", "pinocchio", "yourdfpy", "xacro", "click"} & set(sys.modules)
         """
     )
-    done = project.runpytest_subprocess()
+    done = project.runpytest_subprocess(*LIGHT)
     done.assert_outcomes(passed=1)
     done.stdout.no_fnmatch_line("*arm.urdf*")
     assert "pinscrew:" not in done.stdout.str()
@@ -234,7 +236,7 @@ def test_a_file_that_an_engine_refuses(project: pytest.Pytester, monkeypatch: py
     def refuse(robot: ps.Robot) -> Any:
         raise EngineError("pinocchio-refuses", "Pinocchio refuses the file", where=robot.description.file)
 
-    monkeypatch.setattr(verification, "_default_engines", refuse)
+    monkeypatch.setattr(verification, "pair_of", refuse)
     done = run(project)
     done.assert_outcomes(passed=1, failed=1, skipped=len(CHECKS) - 1)
     done.stdout.fnmatch_lines(["FAILED robots/arm.urdf::structure - robots/arm.urdf: Pinocchio refuses the file"])
@@ -244,7 +246,7 @@ def test_a_mistake_of_ours_has_a_traceback(project: pytest.Pytester, monkeypatch
     def fail(_: ps.Robot) -> Any:
         raise RuntimeError("a mistake")
 
-    monkeypatch.setattr(verification, "_default_engines", fail)
+    monkeypatch.setattr(verification, "pair_of", fail)
     run(project, "-k", "forward").stdout.fnmatch_lines(["*verify*", "E * RuntimeError: a mistake"])
 
 
@@ -415,7 +417,7 @@ def test_wrong_options(project: pytest.Pytester, option: str) -> None:
 def test_xdist(project: pytest.Pytester) -> None:
     """Workers agree on the items, and say the same as one process does."""
     write(project, "robots/broken.urdf", "<robot")
-    done = project.runpytest_subprocess("--pinscrew", "--pinscrew-samples=2", "-n2", "--dist=loadfile", "-rf")
+    done = project.runpytest_subprocess(*LIGHT, "--pinscrew", "--pinscrew-samples=2", "-n2", "--dist=loadfile", "-rf")
     done.assert_outcomes(passed=1 + len(CHECKS), failed=1, skipped=len(CHECKS))
     done.stdout.fnmatch_lines(["FAILED robots/broken.urdf::load - robots/broken.urdf:1: not well-formed XML*"])
 

@@ -121,8 +121,8 @@ def test_blocks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"samples": -1}, "samples=-1; give 0 or more"),
-        ({"seed": -1}, "seed=-1; give 0 or more"),
+        ({"samples": -1}, "samples=-1; give a whole number, 0 or more"),
+        ({"seed": -1}, "seed=-1; give a whole number, 0 or more"),
         *(({"tolerance": t}, f"tolerance={t}; give a positive") for t in (0.0, -1e-9, math.nan, math.inf)),
         ({"frames": []}, "there are no frames to compare"),
     ],
@@ -295,3 +295,26 @@ def test_sizes() -> None:
     floating = urdfs.load(urdfs.single_revolute(), floating_base=True)
     q = np.array([[3.0, 0, 4.0, 0, 0, 0, 1, 0.5]])
     np.testing.assert_allclose(sizes(floating, q), [5.0 + math.sqrt(0.38)], rtol=1e-15)
+
+
+# ------------------------------------------------------------------------------------------ very many samples
+
+
+def test_very_many_samples_are_asked_of_the_compiled_engine_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("llvmlite")
+    from pinscrew.engines.compiled import walk
+    from pinscrew.verification.compiled import MANY
+    from pinscrew.verification.run import check_names
+
+    robot = ps.load("one_joint")
+    few, many = ps.verify(robot, 10), ps.verify(robot, MANY)
+    assert tuple(check.name for check in few.checks) == check_names(10)
+    assert tuple(check.name for check in many.checks) == check_names(MANY)
+    extra = [check for check in many.checks if check.name not in check_names(10)]
+    assert [check.name for check in extra] == ["forward kinematics, compiled", "body Jacobian, compiled"]
+    assert many.ok
+    right = walk._column
+    monkeypatch.setattr(walk, "_column", lambda step, z, point: right(step, [-x for x in z], point))
+    wrong = ps.verify(robot, MANY)
+    assert [check.name for check in wrong.failed] == ["body Jacobian, compiled"]
+    assert wrong.failed[0].place.frame == "tool"

@@ -6,6 +6,7 @@ import json
 import pickle
 import sys
 import warnings
+from functools import cache
 from pathlib import Path
 from typing import Any, Final
 from xml.etree import ElementTree as ET
@@ -29,6 +30,7 @@ BOTH: Final = ("mujoco", "roboticstoolbox")
 NAMES: Final = [entry.name for entry in catalogue.bundled()]
 GEARED: Final = {"gear_pair", "bevel_pair", "lead_screw"}
 FEW: Final = ("--samples", "2")
+load: Final = cache(ps.load)
 
 
 @pytest.fixture
@@ -67,7 +69,7 @@ def failed(report: Report) -> set[str]:
 
 @pytest.mark.parametrize("robot", NAMES)
 def test_assignment_arms(name: str, robot: str) -> None:
-    report = compare(name, ps.load(robot), samples=10)
+    report = compare(name, load(robot), samples=10)
     if name == "roboticstoolbox" and robot in GEARED:
         assert not report.ok
     else:
@@ -107,6 +109,7 @@ def test_the_interface(name: str) -> None:
     np.testing.assert_allclose(engine.fk(q[0, 0], "link2"), pin.fk(q[0, 0], "link2"), **near)
     for kind in KINDS:
         np.testing.assert_allclose(engine.jacobian(q, None, kind), pin.jacobian(q, None, kind), **near)
+        np.testing.assert_allclose(engine.fk_jacobian(q, None, kind)[1], pin.jacobian(q, None, kind), **near)
         np.testing.assert_allclose(engine.velocity(q, qd, None, kind), pin.velocity(q, qd, None, kind), **near)
         rates = [e.jacobian_derivative(q, qd, None, kind) for e in (engine, pin)]
         np.testing.assert_allclose(*rates, **near)
@@ -147,7 +150,7 @@ def test_mujoco_confirms_the_skew_axis() -> None:
 @pytest.mark.usefixtures("rtb")
 @pytest.mark.parametrize("robot", sorted(GEARED))
 def test_roboticstoolbox_ignores_mimics(robot: str) -> None:
-    report = compare("roboticstoolbox", ps.load(robot))
+    report = compare("roboticstoolbox", load(robot))
     assert {"structure", "screw axes", "forward kinematics"} <= failed(report)
     (words,) = report.diagnosis
     assert words.startswith("roboticstoolbox treats joint 'joint2' as independent; to PoE it is ")

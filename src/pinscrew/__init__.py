@@ -18,52 +18,107 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pinscrew import lie
+    from pinscrew.changes.model import Changes
+    from pinscrew.changes.run import diff
     from pinscrew.derivation.run import derive
     from pinscrew.engines.base import Engine
+    from pinscrew.engines.batch import Batch
     from pinscrew.engines.pinocchio import Pinocchio
     from pinscrew.engines.poe import PoE
+    from pinscrew.engines.witness import witness
     from pinscrew.errors import PinscrewError, PinscrewWarning
     from pinscrew.loading import load
+    from pinscrew.motion.integration import integrate
+    from pinscrew.motion.inverse_kinematics import Solution, ik
+    from pinscrew.motion.inverse_velocity import InverseVelocity, inverse_velocity
+    from pinscrew.motion.profile import Profile
+    from pinscrew.motion.singularities import find_singularities
+    from pinscrew.motion.singularity import Singularity, classify_singularity
+    from pinscrew.motion.track import Track, track
+    from pinscrew.motion.trajectory import Trajectory
     from pinscrew.robot import Robot
     from pinscrew.screw import Screw
     from pinscrew.verification.report import Report
     from pinscrew.verification.run import verify
     from pinscrew.view.meshcat import show
+    from pinscrew.workspace.reachability import reachability
+    from pinscrew.workspace.reachability_map import ReachabilityMap
+    from pinscrew.workspace.sweep import Sweep, sweep
 
 __all__ = [
+    "Batch",
+    "Changes",
     "Engine",
+    "InverseVelocity",
     "Pinocchio",
     "PinscrewError",
     "PinscrewWarning",
     "PoE",
+    "Profile",
+    "ReachabilityMap",
     "Report",
     "Robot",
     "Screw",
+    "Singularity",
+    "Solution",
+    "Sweep",
+    "Track",
+    "Trajectory",
     "__version__",
+    "classify_singularity",
     "derive",
+    "diff",
+    "find_singularities",
+    "ik",
+    "integrate",
+    "inverse_velocity",
     "lie",
     "load",
+    "reachability",
     "show",
+    "sweep",
+    "track",
     "verify",
+    "witness",
 ]
 
 __version__ = "0.1.0"
 
 # Where each public name lives: parsers and engines are heavy, and load when first used.
 _HOMES = {
+    "Batch": "pinscrew.engines.batch",
+    "Changes": "pinscrew.changes.model",
     "Engine": "pinscrew.engines.base",
+    "InverseVelocity": "pinscrew.motion.inverse_velocity",
     "Pinocchio": "pinscrew.engines.pinocchio",
     "PinscrewError": "pinscrew.errors",
     "PinscrewWarning": "pinscrew.errors",
     "PoE": "pinscrew.engines.poe",
+    "Profile": "pinscrew.motion.profile",
+    "ReachabilityMap": "pinscrew.workspace.reachability_map",
     "Report": "pinscrew.verification.report",
     "Robot": "pinscrew.robot",
     "Screw": "pinscrew.screw",
+    "Singularity": "pinscrew.motion.singularity",
+    "Solution": "pinscrew.motion.inverse_kinematics",
+    "Sweep": "pinscrew.workspace.sweep",
+    "Track": "pinscrew.motion.track",
+    "Trajectory": "pinscrew.motion.trajectory",
+    "classify_singularity": "pinscrew.motion.singularity",
     "derive": "pinscrew.derivation.run",
+    "diff": "pinscrew.changes.run",
+    "find_singularities": "pinscrew.motion.singularities",
+    "ik": "pinscrew.motion.inverse_kinematics",
+    "integrate": "pinscrew.motion.integration",
+    "inverse_velocity": "pinscrew.motion.inverse_velocity",
     "lie": "pinscrew.lie",
     "load": "pinscrew.loading",
+    "reachability": "pinscrew.workspace.reachability",
     "show": "pinscrew.view.meshcat",
+    "sweep": "pinscrew.workspace.sweep",
+    "track": "pinscrew.motion.track",
     "verify": "pinscrew.verification.run",
+    "witness": "pinscrew.engines.witness",
 }
 
 

@@ -65,7 +65,7 @@ def _restore(kind: type[_E], arguments: tuple[Any, ...], attributes: dict[str, A
 
 
 class DescriptionError(PinscrewError):
-    """A robot's file can't be used as it is.
+    """A robot's file, or one that goes with it, can't be used as it is.
 
     Attributes:
         file: the file, or a name for text that came from elsewhere.
@@ -161,11 +161,18 @@ class PinscrewWarning(UserWarning):
 
     Attributes:
         code: stable word for the kind of remark, such as ``"axis-normalised"``.
+        what: the remark.
+        file: the file that it is about, or ``""``.
+        line: line of the element in the file (after expansion, for xacro), or ``None``.
     """
 
-    def __init__(self, code: str, message: str) -> None:
+    def __init__(self, code: str, what: str, *, file: str | Path = "", line: int | None = None) -> None:
         self.code = code
-        super().__init__(message)
+        self.what = what
+        self.file = str(file)
+        self.line = line
+        where = self.file if line is None else f"{self.file}:{line}"
+        super().__init__(f"{where}: {what}" if where else what)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (type(self), self.args, self.__dict__)

@@ -8,7 +8,7 @@ from pinscrew.lie import se3
 from pinscrew.robot import Robot
 from pinscrew.typing import FloatArray
 
-__all__ = ["integrate"]
+__all__ = ["integrate", "quaternion_starts"]
 
 
 def integrate(robot: Robot, q: FloatArray, step: FloatArray) -> FloatArray:
@@ -31,9 +31,9 @@ def integrate(robot: Robot, q: FloatArray, step: FloatArray) -> FloatArray:
             continue
         velocity = step[..., motion.velocities]
         if motion.joint.type == "planar":
-            _move_planar(out[..., motion.q : motion.q + 3], velocity)
+            _move_planar(out[..., motion.coordinates], velocity)
         elif motion.joint.type == "floating":
-            _move_floating(out[..., motion.q : motion.q + 7], velocity)
+            _move_floating(out[..., motion.coordinates], velocity)
         else:
             out[..., motion.q] += velocity[..., 0]
     return out
@@ -63,3 +63,9 @@ def _move_floating(coordinates: FloatArray, velocity: FloatArray) -> None:
     coordinates[..., 3:6] = w * b + c * a + np.cross(a, b)
     coordinates[..., 6:7] = w * c - (a * b).sum(axis=-1, keepdims=True)
     coordinates[..., 3:7] /= np.linalg.norm(coordinates[..., 3:7], axis=-1, keepdims=True)
+
+
+def quaternion_starts(robot: Robot) -> tuple[int, ...]:
+    """Where the quaternions of floating joints start in ``q``."""
+    floating = (m for m in robot.mechanism.motions if m.joint.type == "floating")
+    return tuple(motion.q + 3 for motion in floating)

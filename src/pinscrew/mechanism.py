@@ -10,8 +10,9 @@ from types import MappingProxyType
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pinscrew.description.model import SCALAR_TYPES, Description, Joint, read_only
+from pinscrew.description.model import SCALAR_TYPES, Description, Joint, drivers, read_only
 from pinscrew.errors import DescriptionError
 from pinscrew.lie import se3
 from pinscrew.typing import FloatArray
@@ -36,8 +37,9 @@ class JointMotion:
             floating (6) and planar (3) joints.
         q: where its coordinates start in ``q``; a mimic joint has its master's.
         v: where its velocities start in ``qd``.
-        multiplier: value of the joint per unit of its coordinate; 1 but for mimic joints. Their offset is in
-            the poses at zero already.
+        multiplier: value of the joint per unit of its coordinate; 1 but for mimic joints.
+        offset: value of the joint where its coordinate is zero; 0 but for mimic joints. The poses at zero have it
+            in them already.
     """
 
     joint: Joint
@@ -47,11 +49,17 @@ class JointMotion:
     q: int
     v: int
     multiplier: float
+    offset: float
 
     @property
     def freedoms(self) -> int:
         """How many velocities it has: k."""
         return int(self.twists.shape[1])
+
+    @property
+    def coordinates(self) -> slice:
+        """Where its coordinates stand in ``q``."""
+        return slice(self.q, self.q + len(_POSITIONS.get(self.joint.type, ("",))))
 
     @property
     def velocities(self) -> slice:
@@ -68,6 +76,8 @@ class Coordinates:
     velocity_names: tuple[str, ...]
     limits: FloatArray
     neutral: FloatArray
+    slides: NDArray[np.bool_]
+    """Which entries of ``q`` are displacements (m); the others are angles (rad), or a quaternion's."""
     q: Mapping[str, int]
     """Where each joint's coordinates start in ``q``."""
     v: Mapping[str, int]
@@ -96,7 +106,7 @@ class Mechanism:
 def derive(description: Description) -> Mechanism:
     """The mechanism of a description: one pass down the tree."""
     coordinates = _coordinates(description)
-    by_name = {joint.name: joint for joint in description.joints}
+    driven = drivers({joint.name: joint.mimic for joint in description.joints})
     root = description.root
     homes: dict[str, FloatArray] = {root: np.eye(4)}
     motion_above = {root: -1}
@@ -109,11 +119,11 @@ def derive(description: Description) -> Mechanism:
         if joint.type == "fixed":
             homes[joint.child], motion_above[joint.child] = T_base_joint, parent
             continue
-        master, multiplier, offset = _master(joint, by_name)
+        driver = driven[joint.name]
         twists = _unit_twists(joint)
-        if offset:
+        if driver.offset:
             # The joint's own motion leaves its twists as they are, so only the pose takes the offset in.
-            T_base_joint = T_base_joint @ se3.exp(twists[:, 0] * offset)
+            T_base_joint = T_base_joint @ se3.exp(twists[:, 0] * driver.offset)
         homes[joint.child], motion_above[joint.child] = T_base_joint, len(motions)
         motions.append(
             JointMotion(
@@ -121,9 +131,10 @@ def derive(description: Description) -> Mechanism:
                 parent=parent,
                 T_base_child=read_only(T_base_joint),
                 twists=read_only(se3.adjoint(T_base_joint) @ twists),
-                q=coordinates.q[master],
-                v=coordinates.v[master],
-                multiplier=multiplier,
+                q=coordinates.q[driver.joint],
+                v=coordinates.v[driver.joint],
+                multiplier=driver.multiplier,
+                offset=driver.offset,
             )
         )
     for pose in homes.values():
@@ -144,6 +155,7 @@ def _coordinates(description: Description) -> Coordinates:
     velocity_names: list[str] = []
     limits: list[tuple[float, float]] = []
     neutral: list[float] = []
+    slides: list[bool] = []
     for joint in description.joints:
         if joint.type == "fixed" or joint.mimic is not None:
             continue
@@ -153,21 +165,26 @@ def _coordinates(description: Description) -> Coordinates:
             velocity_names.append(joint.name)
             limits.append((joint.limits.lower, joint.limits.upper))
             neutral.append(0.0)
+            slides.append(joint.type == "prismatic")
         else:
             names += [f"{joint.name}.{part}" for part in _POSITIONS[joint.type]]
             velocity_names += [f"{joint.name}.{part}" for part in _VELOCITIES[joint.type]]
             limits += [(-math.inf, math.inf)] * len(_POSITIONS[joint.type])
             neutral += [float(part == "qw") for part in _POSITIONS[joint.type]]
+            slides += [part in ("x", "y", "z") for part in _POSITIONS[joint.type]]
     for name, count in Counter(names).items():
         if count > 1:
             what = f"two coordinates would be called {name!r}"
             raise DescriptionError("reserved-name", what, file=description.file, remedy="rename the joint")
+    sliding = np.array(slides, dtype=bool)
+    sliding.setflags(write=False)
     return Coordinates(
         joint_names=tuple(q),
         names=tuple(names),
         velocity_names=tuple(velocity_names),
         limits=read_only(np.array(limits).reshape(-1, 2)),
         neutral=read_only(np.array(neutral)),
+        slides=sliding,
         q=MappingProxyType(q),
         v=MappingProxyType(v),
     )
@@ -181,13 +198,3 @@ def _unit_twists(joint: Joint) -> FloatArray:
     first = 0 if joint.type == "prismatic" else 3
     twist[first : first + 3, 0] = joint.axis
     return twist
-
-
-def _master(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:
-    """The joint whose coordinate drives this one, and its value as ``multiplier * coordinate + offset``."""
-    multiplier, offset = 1.0, 0.0
-    while joint.mimic is not None:
-        offset += multiplier * joint.mimic.offset
-        multiplier *= joint.mimic.multiplier
-        joint = joints[joint.mimic.joint]
-    return joint.name, multiplier, offset

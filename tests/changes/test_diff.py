@@ -41,7 +41,8 @@ def said(b: Robot) -> list[str]:
 
 @pytest.mark.parametrize("name", [entry.name for entry in bundled()])
 def test_a_robot_is_the_same_as_itself(name: str) -> None:
-    found = ps.diff(ps.load(name), ps.load(name))
+    robot = ps.load(name)
+    found = ps.diff(robot, robot)
     assert (found.same, found.changes, found.notes) == (True, (), ())
     assert found.displacement is not None
     assert found.displacement.length == found.displacement.angle == 0.0

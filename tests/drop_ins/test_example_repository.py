@@ -30,7 +30,7 @@ def test_its_commands() -> None:
     for command in others:
         done = run(*command.split()[1:])
         assert done.status == 0, done.err
-    words = [sys.executable, "-m", *tests.split(), "-q", "-p", "no:cacheprovider"]
+    words = [sys.executable, "-m", *tests.split(), "-q", "-p", "no:cacheprovider", "-p", "no:hypothesispytest"]
     done = subprocess.run(words, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     assert re.search(r"^\d+ passed", done.stdout, re.MULTILINE)

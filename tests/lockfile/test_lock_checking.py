@@ -158,7 +158,8 @@ def forgetful(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("pinscrew.lockfile.checking.fingerprint", lambda _: "sha256:")
 
 
-@pytest.mark.parametrize("name", [entry.name for entry in catalogue.bundled()])
+# Three of the catalogue; small robots of every kind follow, and all public ones in a slow sweep.
+@pytest.mark.parametrize("name", ["spherical_rrp", "anthropomorphic_rrr", "lead_screw"])
 def test_rounding_passes(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     forgetful(monkeypatch)
     entry = catalogue.find(name)

@@ -107,7 +107,7 @@ def replaced(by: Any) -> Callable[[Any, str | int], None]:
 def test_broken_everywhere(path: tuple[str | int, ...], tmp_path: Path) -> None:
     """Each thing in a lock left out, renamed or doubled, and of each wrong type."""
     whole = at(LOCK, path)
-    for by in (None, True, False, {}, [], "", "x", 0.5, -3, [None], {"x": 1}, 10**400):
+    for by in (None, True, {}, [], "", "x", 0.5, 10**400):
         if by == whole and type(by) is type(whole):
             continue
         allowed = (isinstance(by, str) and by and path in FREE - {("tip",), ("floating_base",)}) or (

@@ -279,7 +279,7 @@ BAD: dict[str, tuple[dict[str, Any], str, str]] = {
     "dt NaN": (wrong(dt=np.nan), "not-finite", "dt is nan"),
     "dt infinite": (wrong(dt=np.inf), "not-finite", "dt is inf"),
     "dt text": (wrong(dt="short"), "not-finite", "dt is 'short'"),
-    "steps zero": (wrong(steps=0), "steps", "steps=0; expected a positive whole number"),
+    "steps zero": (wrong(steps=0), "steps", "steps=0; give a whole number, 1 or more"),
     "steps half": (wrong(steps=1.5), "steps", "steps=1.5"),
     "steps many": (wrong(steps=10**9), "steps", "at most 1000000"),
     "steps and duration": (wrong(duration=1.0), "duration", "both steps and a duration"),

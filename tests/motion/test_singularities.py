@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from pinscrew.typing import FloatArray
 FRAMES = {"ur5_robot": "tool0", "panda": "panda_hand_tcp"}
 
 
+@cache
 def load(name: str) -> ps.Robot:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

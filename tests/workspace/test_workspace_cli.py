@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +12,13 @@ from PIL import Image
 
 import pinscrew as ps
 from command_line import ok, refused
+from pinscrew.workspace.executors import dask_executor
 
 
 def test_a2(tmp_path: Path) -> None:
     """The whole of part (f): 1036 points, both choices of frame 0, one picture."""
     picture = tmp_path / "a2.png"
-    done = ok("workspace", "planar_2r", "--grid", "5deg", "--plot", picture, "--compare", "frame0")
+    done = ok("workspace", "planar_2r", "--grid", "5deg", "--compare", "--plot", picture)
     lines = done.out.splitlines()
     assert lines[0] == "planar_2r, tool in base: 1036 configurations, a grid of 28 × 37"
     (last,) = (line for line in lines if line.startswith("from frame 0 at frame0, brought to base: "))
@@ -83,15 +84,6 @@ def test_map(tmp_path: Path) -> None:
     assert message.endswith("holds another map: its seed is 0, not 1; give what it was made with, or another file")
 
 
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[str]:
-    """The address of a scheduler with one worker in a thread of this process."""
-    distributed = pytest.importorskip("distributed")
-    options = {"dashboard_address": ":0", "processes": False, "protocol": "tcp://"}
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, **options) as running:
-        yield running.scheduler_address
-
-
 def test_map_by_a_cluster(cluster: str, tmp_path: Path) -> None:
     words = ("workspace", "one_joint", "--voxel", "5cm", "--samples", "1e3")
     ok(*words, "--map", tmp_path / "a.npz", "--scheduler", cluster)
@@ -137,9 +129,21 @@ def test_refused(words: tuple[str, ...], says: str, tmp_path: Path, monkeypatch:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_no_other_frame_0() -> None:
+    words = refused("workspace", "scara", "--samples", "9", "--compare")
+    assert "0 frames but the base are fixed to it: none; name another choice of frame 0" in words
+
+
 def test_no_scheduler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr("pinscrew.workspace.executors.PATIENCE", 0.3)
     words = ("workspace", "one_joint", "--map", tmp_path / "a.npz", "--scheduler", "tcp://127.0.0.1:1")
     assert refused(*words).startswith("tcp://127.0.0.1:1: no dask scheduler answers (")
+
+    async def in_a_notebook() -> None:  # whose cells run in an event loop
+        with pytest.raises(ps.PinscrewError, match="no dask scheduler answers") as caught, dask_executor(words[-1]):
+            pass
+        assert "event loop" not in str(caught.value)
+
+    asyncio.run(in_a_notebook())
     assert list(tmp_path.iterdir()) == []

@@ -8,7 +8,7 @@ import pickle
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import cache
@@ -22,11 +22,12 @@ import closed_forms
 import pinscrew as ps
 from pinscrew.engines.batch import for_many
 from pinscrew.errors import EngineError, InputError, PinscrewError
+from pinscrew.processes import process_pool
 from pinscrew.workspace import blocks
 from pinscrew.workspace import reachability as reachability_module
 from pinscrew.workspace.axes import axes
 from pinscrew.workspace.blocks import BLOCK, Task, run_pickled
-from pinscrew.workspace.executors import dask_executor, process_pool
+from pinscrew.workspace.executors import dask_executor
 from pinscrew.workspace.reachability_map import read_map, write_map
 from pinscrew.workspace.voxels import Gathering, Voxels, approach_directions, direction_bits, voxel_keys
 
@@ -169,15 +170,6 @@ def test_threads_give_the_same_bits() -> None:
     with ThreadPoolExecutor(3) as pool:
         found = ps.reachability(load("spherical_rrp"), voxel=VOXEL, samples=SAMPLES, seed=SEED, executor=pool, jobs=3)
     assert same(found, whole())
-
-
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[str]:
-    """The address of a scheduler with two workers, each in a thread of this process."""
-    distributed = pytest.importorskip("distributed")
-    options = {"dashboard_address": ":0", "processes": False, "protocol": "tcp://"}
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, **options) as running:
-        yield running.scheduler_address
 
 
 def test_a_cluster_gives_the_same_bits(cluster: str) -> None:

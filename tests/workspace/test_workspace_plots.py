@@ -121,10 +121,10 @@ def test_lines_and_circles(name: str, tmp_path: Path) -> None:
 
 
 def test_many_points_are_thinned() -> None:
-    swept = ps.sweep(ps.load("planar_2r"), samples=50_000)
+    swept = ps.sweep(ps.load("planar_2r"), samples=25_000)
     figure = plot_workspace.plot_sweep(swept)
     assert len(offsets(figure.axes[0].collections[0])) == 20_000
-    assert figure.get_suptitle().endswith("sample of 50000, 20000 drawn")
+    assert figure.get_suptitle().endswith("sample of 25000, 20000 drawn")
     whole, _ = density(swept.positions)
     thinned = np.asarray(figure.axes[0].collections[0].get_array())
     np.testing.assert_allclose(np.median(thinned), np.median(whole), rtol=0.02)

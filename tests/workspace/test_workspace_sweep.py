@@ -148,7 +148,7 @@ def test_another_engine() -> None:
     robot = load("scara")
     a, b = ps.sweep(robot, samples=64), ps.sweep(robot, samples=64, engine=ps.Pinocchio(robot))
     np.testing.assert_allclose(a.poses, b.poses, rtol=0, atol=ROUNDING)
-    assert (a.metadata["engine"], b.metadata["engine"]) == ("PoE", "Pinocchio")
+    assert (a.metadata["engine"], b.metadata["engine"]) == ("Batch", "Pinocchio")
 
 
 # ------------------------------------------------------------------------------------ grids, samples
@@ -218,13 +218,13 @@ REFUSED = {
     "no samples": ({"samples": 0}, "samples", "samples=0"),
     "half a sample": ({"samples": 0.5}, "samples", "samples=0.5"),
     "infinite samples": ({"samples": float("inf")}, "samples", "samples=inf"),
-    "more than Sobol has": ({"samples": 2e9}, "sweep-size", "GiB of memory"),
+    "more than Sobol has": ({"samples": 2e9}, "memory", "GiB of memory"),
     "seed": ({"samples": 1, "seed": -1}, "seed", "seed=-1"),
     "reversed": ({"ranges": {"joint1": (1, 0)}}, "range", "reversed"),
     "infinite": ({"ranges": {"joint1": (0, float("inf"))}}, "range", "finite"),
     "no range": ({"ranges": {"joint1": 3}}, "range", "two numbers"),
-    "memory": ({"grid": 1e-6}, "sweep-size", "make a reachability map"),
-    "overflow": ({"grid": 1e-300}, "sweep-size", "make a reachability map"),
+    "memory": ({"grid": 1e-6}, "memory", "make a reachability map"),
+    "overflow": ({"grid": 1e-300}, "memory", "make a reachability map"),
     "fixed": ({"frame": "frame0"}, "nothing-moves", "no joint moves the frame 'frame0'"),
     "kind": ({"kind": "geometric"}, "jacobian-kind", "is not a kind"),
 }

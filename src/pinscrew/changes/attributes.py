@@ -4,43 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from pinscrew.changes.geometry import Near, kind
 from pinscrew.changes.matching import Step
 from pinscrew.changes.model import Change
 from pinscrew.changes.placement import Placement
 from pinscrew.changes.wording import degrees, interval, millimetres, number
-from pinscrew.description.model import Description, Joint
+from pinscrew.description.model import Description, Joint, Mimic, drivers
 from pinscrew.robot import Robot
 
-__all__ = ["Driven", "attributes", "driven", "opposite", "renames"]
+__all__ = ["attributes", "driven", "opposite", "renames"]
 
 
-@dataclass(frozen=True)
-class Driven:
-    """What drives a joint: ``multiplier`` times the coordinate of ``master``, and ``offset``."""
-
-    master: str
-    multiplier: float
-    offset: float
-
-
-def driven(robot: Robot) -> dict[str, Driven]:
+def driven(robot: Robot) -> dict[str, Mimic]:
     """What drives each joint that moves, through however many mimics."""
-    joints = {joint.name: joint for joint in robot.description.joints}
-    found = {}
-    for motion in robot.mechanism.motions:
-        joint, offset, multiplier = motion.joint, 0.0, 1.0
-        while joint.mimic is not None:
-            offset += multiplier * joint.mimic.offset
-            multiplier *= joint.mimic.multiplier
-            joint = joints[joint.mimic.joint]
-        found[motion.joint.name] = Driven(joint.name, multiplier, offset)
-    return found
+    found = drivers({joint.name: joint.mimic for joint in robot.description.joints})
+    return {motion.joint.name: found[motion.joint.name] for motion in robot.mechanism.motions}
 
 
-def opposite(a: Driven | None, b: Driven | None, near: Near) -> bool:
+def opposite(a: Mimic | None, b: Mimic | None, near: Near) -> bool:
     """Whether two joints are driven by opposite values."""
     if a is None or b is None or a.multiplier * b.multiplier >= 0.0:
         return False
@@ -51,7 +33,7 @@ def attributes(
     step: Step,
     placed: Placement,
     names: Mapping[str, str],
-    drives: tuple[Mapping[str, Driven], Mapping[str, Driven]],
+    drives: tuple[Mapping[str, Mimic], Mapping[str, Mimic]],
     near: Near,
 ) -> tuple[list[Change], list[Change]]:
     """Changes and notes about a joint that both robots have; ``names`` are b's names of joints by those in a."""
@@ -126,7 +108,7 @@ def _mimic(
     now: Joint,
     placed: Placement,
     names: Mapping[str, str],
-    drives: tuple[Mapping[str, Driven], Mapping[str, Driven]],
+    drives: tuple[Mapping[str, Mimic], Mapping[str, Mimic]],
     near: Near,
 ) -> Change | None:
     old, new = drives[0].get(joint.name), drives[1].get(now.name)
@@ -139,8 +121,8 @@ def _mimic(
     direct = (names.get(joint.mimic.joint), joint.mimic.multiplier, joint.mimic.offset)
     if _alike(direct, (now.mimic.joint, now.mimic.multiplier, now.mimic.offset), 0.0, near):
         return None
-    master, sign = names.get(old.master), -1.0 if placed.reversed else 1.0
-    before, after = (master, old.multiplier, old.offset), (new.master, sign * new.multiplier, sign * new.offset)
+    master, sign = names.get(old.joint), -1.0 if placed.reversed else 1.0
+    before, after = (master, old.multiplier, old.offset), (new.joint, sign * new.multiplier, sign * new.offset)
     all_in_all = _alike(before, after, placed.zero, near)
     told = f"{_law(joint)} to {_law(now)}"
     if all_in_all:

@@ -22,25 +22,23 @@ POSES: Final = 20000
 FEWEST: Final = 100
 TURNING: Final = {"revolute", "continuous"}
 """Types whose coordinates are the same."""
-COUNTS: Final = {"floating": 7, "planar": 3}
-"""How many coordinates a joint has; others have one."""
 
 
 def columns(a: Robot, b: Robot, joints: Mapping[str, str]) -> list[int] | None:
     """Where in b's coordinates each of a's is, or None if the two do not have the same."""
     if len(a.joint_names) != len(b.joint_names) or a.nq != b.nq:
         return None
-    types = [{joint.name: joint.type for joint in robot.description.joints} for robot in (a, b)]
+    mine, theirs = ({m.joint.name: m for m in r.mechanism.motions if m.joint.mimic is None} for r in (a, b))
     found: list[int] = []
-    for name in a.joint_names:
+    for name, motion in mine.items():
         # Names that were swapped mean other coordinates now.
-        other = name if name in b.mechanism.coordinates.q else joints.get(name, "")
-        same = types[0][name] == types[1].get(other) or {types[0][name], types[1].get(other)} == TURNING
-        if other not in b.mechanism.coordinates.q or not same:
+        other = theirs.get(name) or theirs.get(joints.get(name, ""))
+        if other is None:
             return None
-        count = COUNTS.get(types[0][name], 1)
-        start = b.mechanism.coordinates.q[other]
-        found += range(start, start + count)
+        types = {motion.joint.type, other.joint.type}
+        if len(types) > 1 and types != TURNING:
+            return None
+        found += range(b.nq)[other.coordinates]
     return found if len(set(found)) == len(found) else None
 
 
@@ -77,11 +75,10 @@ def largest(a: Robot, b: Robot, columns: Sequence[int], tips: Sequence[tuple[str
 
 def _q(robot: Robot, q: FloatArray, tip: str) -> dict[str, float]:
     """The coordinates that move a tip, by their names."""
-    found = {}
+    found: dict[str, float] = {}
     for motion in (robot.mechanism.motions[i] for i in robot.motions_above(tip)):
-        count = COUNTS.get(motion.joint.type, 1)
-        columns = range(motion.q, motion.q + count)
-        found.update({robot.coordinate_names[i]: float(q[i]) for i in columns})
+        names = robot.coordinate_names[motion.coordinates]
+        found.update(zip(names, q[motion.coordinates].tolist(), strict=True))
     return found
 
 

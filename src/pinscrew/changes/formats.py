@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Final
+from dataclasses import asdict
+from typing import Final
 
 from pinscrew.changes.model import Change, Changes, Place
 from pinscrew.changes.wording import degrees, millimetres, number
+from pinscrew.findings.markdown import cell
+from pinscrew.words import one_line
 
 __all__ = ["SCHEMA", "summary", "to_json", "to_markdown", "to_text"]
 
@@ -21,7 +24,7 @@ def summary(changes: Changes) -> str:
     outcome = "the motion is the same" if changes.same else f"{count} change{'s' * (count > 1)}"
     notes = len(changes.notes)
     remarked = f", {notes} note{'s' * (notes > 1)}" if notes else ""
-    return f"{_line(changes.a)} → {_line(changes.b)}: {outcome}{remarked}"
+    return f"{one_line(changes.a)} → {one_line(changes.b)}: {outcome}{remarked}"
 
 
 def to_text(changes: Changes) -> str:
@@ -40,8 +43,8 @@ def to_json(changes: Changes) -> str:
         "a": changes.a,
         "b": changes.b,
         "same": changes.same,
-        "changes": [_as_data(change) for change in changes.changes],
-        "notes": [_as_data(note) for note in changes.notes],
+        "changes": [asdict(change) for change in changes.changes],
+        "notes": [asdict(note) for note in changes.notes],
         "displacement": found
         and {
             "length": found.length,
@@ -53,32 +56,20 @@ def to_json(changes: Changes) -> str:
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def _as_data(change: Change) -> dict[str, Any]:
-    return {
-        "kind": change.kind,
-        "joint": change.joint,
-        "link": change.link,
-        "words": change.words,
-        "length": change.length,
-        "angle": change.angle,
-        "line": change.line,
-    }
-
-
 def to_markdown(changes: Changes) -> str:
     """The changes as Markdown: a heading, and a list of changes and one of notes."""
-    lines = [f"### {_plain(summary(changes))}", ""]
-    lines += [f"- **{change.kind}**: {_plain(_told(change))}" for change in changes.changes]
-    lines += [f"- {_plain(line)}" for line in _apart(changes)]
+    lines = [f"### {cell(summary(changes))}", ""]
+    lines += [f"- **{change.kind}**: {cell(_told(change))}" for change in changes.changes]
+    lines += [f"- {cell(line)}" for line in _apart(changes)]
     if changes.notes:
         lines += ["", "Without a change of the motion:", ""]
-        lines += [f"- {note.kind}: {_plain(_told(note))}" for note in changes.notes]
+        lines += [f"- {note.kind}: {cell(_told(note))}" for note in changes.notes]
     return "\n".join([*lines, ""])
 
 
 def _told(change: Change) -> str:
     where = "" if change.line is None else f" (line {change.line})"
-    return f"{_line(change.words)}{where}"
+    return f"{one_line(change.words)}{where}"
 
 
 def _apart(changes: Changes) -> list[str]:
@@ -98,16 +89,4 @@ def _apart(changes: Changes) -> list[str]:
 
 def _place(place: Place) -> str:
     q = ", ".join(f"{name}={number(value)}" for name, value in place.q.items())
-    return _line(f"{place.frame!r} at {q}" if q else repr(place.frame))
-
-
-def _line(text: str) -> str:
-    """Text without line breaks; names may hold them."""
-    return " ".join(text.split())
-
-
-def _plain(text: str) -> str:
-    """Text with what Markdown would take as markup made plain."""
-    for mark in "\\`*_|<>[]":
-        text = text.replace(mark, f"\\{mark}")
-    return text
+    return one_line(f"{place.frame!r} at {q}" if q else repr(place.frame))

@@ -20,12 +20,16 @@ __all__ = ["command", "main"]
 _COMMANDS: Final = {
     "completion": "pinscrew.cli.completion",
     "derive": "pinscrew.cli.derive",
+    "diff": "pinscrew.cli.diff",
     "fk": "pinscrew.cli.fk",
     "jacobian": "pinscrew.cli.jacobian",
     "list": "pinscrew.cli.list_robots",
+    "lock": "pinscrew.cli.lock",
     "screws": "pinscrew.cli.screws",
     "show": "pinscrew.cli.show",
+    "track": "pinscrew.cli.track",
     "verify": "pinscrew.cli.verify",
+    "workspace": "pinscrew.cli.workspace",
 }
 
 

@@ -2,32 +2,42 @@
 
 from __future__ import annotations
 
-import ast
-import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
+
+from pinscrew import expressions
+from pinscrew.errors import InputError
 
 if TYPE_CHECKING:
     from pinscrew.robot import Robot
     from pinscrew.typing import FloatArray
 
 __all__ = [
+    "OUTPUT",
     "Named",
     "configuration",
     "json_option",
     "number",
+    "options",
+    "pairs",
     "q_option",
+    "robot",
     "robot_argument",
     "robots",
     "tip_option",
+    "values_by_name",
 ]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
+
+OUTPUT: Final = click.Path(dir_okay=False, path_type=Path)
+"""The type of an option that names a file to write."""
 
 _ASSIGNMENT: Final = re.compile(r"([^\s:=]+):=(.*)", re.DOTALL)
 
@@ -121,14 +131,22 @@ def _keep_packages(ctx: click.Context, param: click.Parameter, values: Sequence[
     _keep(ctx, param, packages)
 
 
+def options() -> dict[str, Any]:
+    """The options of `robot_argument` as they were given, for `pinscrew.load`."""
+    found: dict[str, Any] = click.get_current_context().meta.get(_OPTIONS, {})
+    return found
+
+
 def robots(words: Sequence[str]) -> list[Named]:
     """The robots that the words of a command line name, each with the arguments that follow it."""
     found: list[Named] = []
-    options = click.get_current_context().meta.get(_OPTIONS, {})
     for word in words:
         assignment = _ASSIGNMENT.fullmatch(word)
         if assignment is None:
-            found.append(Named(word, options=options))
+            name, equals, value = word.partition("=")
+            if found and equals and name.isidentifier() and not Path(word).exists():
+                raise click.UsageError(f"{word!r} is no robot; an argument is written {name}:={value}")
+            found.append(Named(word, options=options()))
         elif not found:
             raise click.UsageError(f"the argument {word} comes before any robot")
         else:
@@ -140,7 +158,9 @@ def robot(words: Sequence[str]) -> Named:
     """The one robot that the words of a command line name."""
     found = robots(words)
     if len(found) != 1:
-        raise click.UsageError(f"expected one robot, but got {', '.join(named.source for named in found)}")
+        numbers = re.fullmatch(r"[-+.\d].*", found[-1].source) and not Path(found[-1].source).exists()
+        hint = "; separate the values of -q by commas" if numbers else ""
+        raise click.UsageError(f"expected one robot, but got {', '.join(named.source for named in found)}{hint}")
     return found[0]
 
 
@@ -154,51 +174,58 @@ q_option = click.option(
     "pairs (the others are 0). Write 45deg, pi/4 or -2*pi/3. By default all are 0.",
 )
 
-_OPERATORS: Final[dict[type[ast.operator], Callable[[float, float], float]]] = {
-    ast.Add: lambda a, b: a + b,
-    ast.Sub: lambda a, b: a - b,
-    ast.Mult: lambda a, b: a * b,
-    ast.Div: lambda a, b: a / b,
-}
-_CONSTANTS: Final = {"pi": math.pi, "deg": math.pi / 180.0}
-_UNIT: Final = re.compile(r"(?<=[0-9.)])\s*(deg|pi)\b")
-_LONGEST: Final = 100
 
-
-def number(text: str) -> float:
-    """The value of an expression such as ``-0.5``, ``pi/4``, ``45deg`` or ``2*(pi-1)``.
+def number(text: str, option: str) -> float:
+    """The value that an option gives as an expression: ``-0.5``, ``pi/4``, ``45deg`` or ``2*(pi-1)``.
 
     Raises:
         click.BadParameter: if it is none.
     """
-    shown = text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
-    problem = _bad(f"{shown!r} is not a number; write such as 0.1, pi/4 or 45deg")
-    if len(text) > _LONGEST:
-        raise problem
     try:
-        value = _value(ast.parse(_UNIT.sub(r"*\1", text.strip()), mode="eval").body)
-    except (SyntaxError, ValueError, ZeroDivisionError, OverflowError, RecursionError, MemoryError):
-        raise problem from None
-    if not math.isfinite(value):
-        raise problem
-    return value
+        return expressions.number(text)
+    except InputError:
+        shown = text if len(text) <= expressions.LONGEST else f"{text[: expressions.LONGEST]}…"
+        what = f"{shown!r} is not a number; write such as 0.1, pi/4 or 45deg"
+        raise click.BadParameter(what, param_hint=option) from None
 
 
-def _bad(message: str) -> click.BadParameter:
-    return click.BadParameter(message, param_hint="-q")
+def pairs(words: Iterable[str], form: str, option: str | None = None) -> dict[str, str]:
+    """Words such as NAME=VALUE, by their names.
+
+    Args:
+        words: the words.
+        form: what they must be, in words.
+        option: whose they are; not needed in its own callback.
+
+    Raises:
+        click.BadParameter: if a word is none, or a name is given twice.
+    """
+    found: dict[str, str] = {}
+    for word in words:
+        name, equals, text = (part.strip() for part in word.partition("="))
+        if not equals or not name:
+            raise click.BadParameter(f"{word.strip()!r} is not {form}", param_hint=option)
+        if name in found:
+            raise click.BadParameter(f"{name!r} is given twice", param_hint=option)
+        found[name] = text
+    return found
 
 
-def _value(node: ast.expr) -> float:
-    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool):
-        return float(node.value)
-    if isinstance(node, ast.Name) and node.id in _CONSTANTS:
-        return _CONSTANTS[node.id]
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
-        value = _value(node.operand)
-        return -value if isinstance(node.op, ast.USub) else value
-    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
-        return _OPERATORS[type(node.op)](_value(node.left), _value(node.right))
-    raise ValueError("not arithmetic")
+def values_by_name(text: str, robot: str, names: Sequence[str], option: str) -> dict[str, float]:
+    """The numbers of an option like ``-q``: one for each of the names, or NAME=VALUE pairs, whose names may be any.
+
+    Raises:
+        click.BadParameter: if it can't be read, or has another number of values than there are names.
+    """
+    words = text.removeprefix("=").split(",")  # -q=1 is -q with the value "=1" to click
+    if any("=" in word for word in words):
+        given = pairs(words, "NAME=VALUE; give all values by name, or none", option)
+    elif len(words) == len(names):
+        given = dict(zip(names, words, strict=True))
+    else:
+        what = f"{len(words)} values, but {robot} takes {len(names)}: {', '.join(names) or 'none'}"
+        raise click.BadParameter(what, param_hint=option)
+    return {name: number(value, option) for name, value in given.items()}
 
 
 def configuration(robot: Robot, values: str | None) -> FloatArray:
@@ -208,22 +235,6 @@ def configuration(robot: Robot, values: str | None) -> FloatArray:
         click.BadParameter: if it can't be read, or has another number of values than the robot.
         UnknownNameError: if it names a joint that does not exist.
     """
-    import numpy as np
-
     if values is None or not values.strip():
         return robot.neutral.copy()
-    words = values.removeprefix("=").split(",")  # -q=1 is -q with the value "=1" to click
-    if any("=" in word for word in words):
-        pairs = [word.partition("=") for word in words]
-        names = [name.strip() for name, _, _ in pairs]
-        bare = [name for name, (_, equals, _) in zip(names, pairs, strict=True) if not equals]
-        if bare:
-            raise _bad(f"{bare[0]!r} has no name; give all values by name, or none")
-        twice = [name for i, name in enumerate(names) if name in names[:i]]
-        if twice:
-            raise _bad(f"{twice[0]!r} is given twice")
-        return robot.configuration({name: number(value) for name, (_, _, value) in zip(names, pairs, strict=True)})
-    if len(words) != robot.nq:
-        known = ", ".join(robot.coordinate_names) or "none"
-        raise _bad(f"{len(words)} values, but {robot.name} takes {robot.nq}: {known}")
-    return np.array([number(word) for word in words])
+    return robot.configuration(values_by_name(values, robot.name, robot.coordinate_names, "-q"))

@@ -19,10 +19,7 @@ __all__ = ["command"]
 
 def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
     found = {}
-    for value in values:
-        name, equals, text = value.partition("=")
-        if not equals or not name:
-            raise click.BadParameter(f"{value!r} is not NAME=LENGTH")
+    for name, text in arguments.pairs(values, "NAME=LENGTH").items():
         try:
             found[name] = float(text)
         except ValueError:
@@ -41,7 +38,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     show_default=True,
     help="How to write the report.",
 )
-@click.option("-o", "--output", "target", type=click.Path(dir_okay=False, path_type=Path), help="Write to this file.")
+@click.option("-o", "--output", "target", type=arguments.OUTPUT, help="Write to this file.")
 @click.option(
     "--part",
     "parts",

@@ -33,7 +33,7 @@ __all__ = ["command"]
     help="Largest angle that counts as none; by default 5.7e-8, which is 1e-9 rad.",
 )
 @arguments.json_option
-@click.option("--markdown", type=click.Path(dir_okay=False, path_type=Path), help="Write Markdown to this file.")
+@click.option("--markdown", type=arguments.OUTPUT, help="Write Markdown to this file.")
 def command(
     words: tuple[str, ...],
     tolerance_mm: float,

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from pinscrew.errors import InputError
+from pinscrew import files
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -59,20 +58,7 @@ def write_file(path: Path, text: str) -> None:
     Raises:
         InputError: if it can't be written.
     """
-    encoded = text.encode("utf-8", errors="backslashreplace")
-    try:
-        if path.exists() and not path.is_file():  # a device or a pipe, such as /dev/stdout
-            path.write_bytes(encoded)
-            return
-        temporary = path.resolve().with_name(f".{path.name}.{os.getpid()}")
-        try:
-            temporary.write_bytes(encoded)
-            temporary.replace(path.resolve())
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        what = f"can't be written ({error.strerror or error})"
-        raise InputError("unwritable", what, where=str(path)) from None
+    files.write(path, text.encode("utf-8", errors="backslashreplace"))
 
 
 def matrix_lines(values: FloatArray, digits: int = 6) -> list[str]:

@@ -78,8 +78,7 @@ class Wanted:
 
 
 def _file(name: str, what: str) -> Callable[[_F], _F]:
-    kind = click.Path(dir_okay=False, path_type=Path)
-    return click.option(f"--{name}", type=kind, metavar="FILE", help=f"Write {what} to this file.")
+    return click.option(f"--{name}", type=arguments.OUTPUT, help=f"Write {what} to this file.")
 
 
 def report_options(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from pinscrew.cli import arguments
+from pinscrew import files
+from pinscrew.cli import arguments, output
+from pinscrew.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -55,15 +57,13 @@ def _groups(_ctx: click.Context, _param: click.Parameter, value: str | None) -> 
 @click.option(
     "--html",
     "html_file",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
+    type=arguments.OUTPUT,
     help="Write the page as one HTML file that needs no server and no network, and end.",
 )
 @click.option(
     "--png",
     "png_file",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
+    type=arguments.OUTPUT,
     help="Write a picture, made by Chromium or Chrome without a window, and end.",
 )
 @click.option("--no-open", is_flag=True, help="Print the address alone and open no browser.")
@@ -100,9 +100,9 @@ def command(
         draw = ("links", "frames", "screws", *(["velocity"] if rates is not None else []))
     state = prepare.begin(model, arguments.configuration(robot, values), _rates(model, rates), draw=draw)
     if html_file is not None:
-        prepare.write(html_file, prepare.page(model, state).encode("utf-8"))
+        output.write_file(html_file, prepare.page(model, state))
     if png_file is not None:
-        prepare.write(png_file, prepare.picture(model, state))
+        files.write(png_file, prepare.picture(model, state))
     if html_file is None and png_file is None:
         ctx.exit(_serve(model, state, port, open_browser=not no_open))
 
@@ -114,28 +114,12 @@ def _rates(model: Model, text: str | None) -> Any:
     if text is None:
         return None
     names = model.robot.velocity_names
-    words = text.removeprefix("=").split(",")
-    if any("=" in word for word in words):
-        rates = np.zeros(len(names))
-        for word in words:
-            name, _, value = (part.strip() for part in word.partition("="))
-            if name not in names:
-                raise click.BadParameter(
-                    f"there is no velocity {name!r}; known are {', '.join(names)}", param_hint="--qd"
-                )
-            rates[names.index(name)] = _number(value)
-        return rates
-    if len(words) != len(names):
-        what = f"{len(words)} values, but {model.robot.name} takes {len(names)}: {', '.join(names) or 'none'}"
-        raise click.BadParameter(what, param_hint="--qd")
-    return np.array([_number(word) for word in words])
-
-
-def _number(text: str) -> float:
-    try:
-        return arguments.number(text)
-    except click.BadParameter as error:
-        raise click.BadParameter(error.message, param_hint="--qd") from None
+    rates = np.zeros(len(names))
+    for name, value in arguments.values_by_name(text, model.robot.name, names, "--qd").items():
+        if name not in names:
+            raise UnknownNameError("unknown-velocity", "velocity", name, names, where=model.robot.name)
+        rates[names.index(name)] = value
+    return rates
 
 
 def _serve(model: Model, state: State, port: int | None, *, open_browser: bool) -> int:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 _SCHEMES = ("exponential", "exponential-body", "coursework", "euler", "rk4")
-_FILE = click.Path(dir_okay=False, path_type=Path)
 
 
 @click.command(name="track", short_help="Move along given rates, and recover them.")
@@ -56,9 +55,11 @@ _FILE = click.Path(dir_okay=False, path_type=Path)
     help="How rates are recovered: (JᵀJ)⁻¹Jᵀ, by singular values, or by damped least squares.",
 )
 @click.option("--at", metavar="SECONDS", help="The time to print; by default the begin of the last step.")
-@click.option("--csv", "csv_file", type=_FILE, help="Write a row for each time to this file.")
-@click.option("--npz", "npz_file", type=_FILE, help="Write all arrays to this file, for numpy.load.")
-@click.option("--plot", "plot_file", type=_FILE, help="Draw rates and drift to this file: .png, .svg or .pdf.")
+@click.option("--csv", "csv_file", type=arguments.OUTPUT, help="Write a row for each time to this file.")
+@click.option("--npz", "npz_file", type=arguments.OUTPUT, help="Write all arrays to this file, for numpy.load.")
+@click.option(
+    "--plot", "plot_file", type=arguments.OUTPUT, help="Draw rates and drift to this file: .png, .svg or .pdf."
+)
 @arguments.json_option
 def command(
     words: tuple[str, ...],
@@ -91,15 +92,15 @@ def command(
 
         figures.check(plot_file)
     robot = arguments.robot(words).load()
-    options |= {"q0": arguments.configuration(robot, values), "frame": tip, "dt": _seconds(dt, "--dt")}
+    options |= {"q0": arguments.configuration(robot, values), "frame": tip, "dt": arguments.number(dt, "--dt")}
     if duration is not None:
-        options["duration"] = _seconds(duration, "--duration")
+        options["duration"] = arguments.number(duration, "--duration")
     with progress("integrating", len(STAGES)) as advance:
         found = track(robot, advance=lambda stage: advance(1, stage), **options)
     run = found.trajectory
-    index = run.steps - 1 if at is None else found.index(_seconds(at, "--at"))
+    index = run.steps - 1 if at is None else found.index(arguments.number(at, "--at"))
     if csv_file is not None:
-        files.write(csv_file, formats.to_csv(found).encode("utf-8"))
+        output.write_file(csv_file, formats.to_csv(found))
     if npz_file is not None:
         files.write(npz_file, formats.to_npz(found))
     if plot_file is not None:
@@ -110,13 +111,6 @@ def command(
         output.print_json(formats.document(found, index))
     else:
         _print(found, index)
-
-
-def _seconds(text: str, option: str) -> float:
-    try:
-        return arguments.number(text)
-    except click.BadParameter as error:
-        raise click.BadParameter(error.message, param_hint=option) from None
 
 
 def _print(found: Track, index: int) -> None:

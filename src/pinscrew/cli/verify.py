@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 import click
 
 from pinscrew.cli import arguments, output
+from pinscrew.cli.progress import progress
+from pinscrew.cli.reports import Wanted, report_options
+from pinscrew.engines.witness import WITNESSES, require
 from pinscrew.errors import PinscrewError, PinscrewWarning
+from pinscrew.processes import job_count, process_pool
 
 if TYPE_CHECKING:
+    from pinscrew.findings.model import Finding
+    from pinscrew.robot import Robot
     from pinscrew.verification.report import Report
 
-    _Outcome: TypeAlias = tuple[Report | PinscrewError, list[PinscrewWarning]]
+    _Outcome: TypeAlias = tuple[list[Report], list[PinscrewError], list[PinscrewWarning], list[Finding]]
     _Question: TypeAlias = Callable[[arguments.Named], _Outcome]
 
 __all__ = ["command"]
@@ -35,26 +36,27 @@ MOST_IN_ONE: Final = 20
 @click.option("--samples", default=1000, show_default=True, type=click.IntRange(0), help="Random configurations.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the random configurations.")
 @click.option("--frame", "frames", multiple=True, metavar="FRAME", help="Compare this frame only; may be repeated.")
+@click.option(
+    "--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)), help="Compare this too; repeatable."
+)
 @click.option("--all", "everything", is_flag=True, help="Verify every robot known by name, example-robot-data's too.")
 @click.option("--jobs", type=click.IntRange(1), help="Processes; by default 1, or all cores above 20 robots.")
-@arguments.json_option
-@click.option("--junit", type=click.Path(dir_okay=False, path_type=Path), help="Write JUnit XML to this file.")
-@click.option("--markdown", type=click.Path(dir_okay=False, path_type=Path), help="Write Markdown to this file.")
+@report_options
 def command(
     words: tuple[str, ...],
     samples: int,
     seed: int,
     frames: tuple[str, ...],
+    witnesses: tuple[str, ...],
     everything: bool,
     jobs: int | None,
-    as_json: bool,
-    junit: Path | None,
-    markdown: Path | None,
+    wanted: Wanted,
 ) -> None:
     """Ask two engines the same questions about each ROBOT, on every frame, and compare the answers.
 
-    Without ROBOT, all robots that come with pinscrew are verified. Exit status: 0 if the engines agree, 1 if
-    they disagree, 2 if a robot could not be verified.
+    Without ROBOT, all robots that come with pinscrew are verified. A witness is another library, compared with the
+    PoE engine as Pinocchio is. Exit status: 0 if the engines agree, 1 if they disagree, 2 if a robot could not be
+    verified.
 
     \b
       pinscrew verify
@@ -66,29 +68,39 @@ def command(
     if everything and words:
         raise click.UsageError("--all takes no ROBOT")
     named = arguments.robots(words) or _known(everything)
-    question = partial(_outcome, samples=samples, seed=seed, frames=frames)
+    asked = tuple(dict.fromkeys(witnesses))
+    for witness in asked:
+        require(witness)
+    question = partial(_outcome, samples=samples, seed=seed, frames=frames, witnesses=asked)
+    agreeing = 0
     reports: list[Report] = []
     errors: list[formats.Unverified] = []
-    with _progress(len(named)) as advance:
-        for one, (outcome, remarks) in zip(named, _each(question, named, jobs), strict=True):
-            if isinstance(outcome, PinscrewError):
-                errors.append(formats.Unverified(one.source, outcome))
-            else:
-                reports.append(outcome)
+    findings: list[Finding] = []
+    with progress("verifying", len(named)) as advance:
+        for one, (compared, failed, remarks, found) in zip(named, _each(question, named, jobs), strict=True):
+            reports += compared
+            errors += [formats.Unverified(one.source, error) for error in failed]
+            agreeing += not failed and all(report.ok for report in compared)
+            findings += found
             _warn(remarks, brief=everything)
-            advance(one.source)
-    if as_json:
+            advance(1, one.source)
+    if wanted.as_json:
         click.echo(formats.to_json(reports, errors))
-    elif len(named) == 1 and reports:
-        _print_checks(reports[0])
+    elif len(named) == 1:
+        for report in reports:
+            _print_checks(report)
     elif reports:
-        _print_summary(reports, len(named), "compared frame" if frames else "frame")
+        _print_summary(reports, pairs=bool(asked))
+        engines, frame = "all engines" if asked else "both engines", "compared frame" if frames else "frame"
+        click.echo(f"{agreeing} of {len(named)} robots: {engines} agree to rounding error on every {frame}")
     for unverified in errors:
         click.echo(f"pinscrew: {unverified.error}", err=True)
-    if junit is not None:
-        output.write_file(junit, formats.to_junit(reports, errors))
-    if markdown is not None:
-        output.write_file(markdown, formats.to_markdown(reports, errors))
+    wanted.write(
+        "pinscrew verify",
+        findings,
+        junit=lambda: formats.to_junit(reports, errors),
+        markdown=lambda: formats.to_markdown(reports, errors),
+    )
     if not all(report.ok for report in reports):
         sys.exit(1)
     if errors:
@@ -105,24 +117,45 @@ def _known(everything: bool) -> list[arguments.Named]:
 
 def _each(question: _Question, named: Sequence[arguments.Named], jobs: int | None) -> Iterator[_Outcome]:
     """The outcome for each robot, in order, as they come."""
-    processes = jobs or (1 if len(named) <= MOST_IN_ONE else os.cpu_count() or 1)
-    if processes == 1:
+    count = 1 if jobs is None and len(named) <= MOST_IN_ONE else job_count(jobs)
+    if count == 1:
         yield from map(question, named)
         return
-    # Workers are spawned, not forked: numpy's and Pinocchio's threads may hold locks.
-    with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
+    with process_pool(count) as (pool, _):
         yield from pool.map(question, named)
 
 
-def _outcome(named: arguments.Named, samples: int, seed: int, frames: tuple[str, ...]) -> _Outcome:
-    """The report on one robot, or why there is none, and what was remarked about its file."""
+def _outcome(
+    named: arguments.Named, samples: int, seed: int, frames: tuple[str, ...], witnesses: tuple[str, ...]
+) -> _Outcome:
+    """The reports on one robot, why others could not be made, what was remarked about its file, all of it as findings.
+
+    Where our engines could not be compared, no witness is heard.
+    """
+    from pinscrew.findings.troubles import from_error, from_warning
+    from pinscrew.verification.findings import from_report
+
+    reports: list[Report] = []
+    errors: list[PinscrewError] = []
+    findings: list[Finding] = []
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", PinscrewWarning)
         try:
-            outcome: Report | PinscrewError = _verify(named, samples, seed, frames)
+            robot = named.load()
+            reports.append(_verify(robot, samples, seed, frames))
         except PinscrewError as error:
-            outcome = error
-    return outcome, [one.message for one in caught if isinstance(one.message, PinscrewWarning)]
+            errors.append(error)
+            witnesses = ()
+        for witness in witnesses:
+            try:
+                reports.append(_verify(robot, samples, seed, frames, witness))
+            except PinscrewError as error:
+                errors.append(error)
+    remarks = [one.message for one in caught if isinstance(one.message, PinscrewWarning)]
+    findings += (from_warning(remark, named.source) for remark in remarks)
+    findings += (found for report in reports for found in from_report(report, robot.description))
+    findings += (from_error(error, named.source) for error in errors)
+    return reports, errors, remarks, findings
 
 
 def _warn(remarks: Sequence[PinscrewWarning], *, brief: bool) -> None:
@@ -132,24 +165,14 @@ def _warn(remarks: Sequence[PinscrewWarning], *, brief: bool) -> None:
         click.echo(f"pinscrew: warning: {remark}{more}", err=True)
 
 
-def _verify(named: arguments.Named, samples: int, seed: int, frames: tuple[str, ...]) -> Report:
+def _verify(robot: Robot, samples: int, seed: int, frames: tuple[str, ...], against: str | None = None) -> Report:
+    """The report on both engines of ours, or on the PoE engine and a witness."""
+    from pinscrew.engines.poe import PoE
+    from pinscrew.engines.witness import witness
     from pinscrew.verification.run import verify
 
-    return verify(named.load(), samples, seed, frames=frames or None)
-
-
-@contextmanager
-def _progress(total: int) -> Iterator[Callable[[str], None]]:
-    """A progress bar on standard error, where a person sees it; yields what to call with each robot done."""
-    if total < 2 or not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=output.console(stderr=True), transient=True) as progress:
-        task = progress.add_task("verifying", total=total)
-        yield lambda name: progress.update(task, advance=1, description=name)
+    engines = None if against is None else (PoE(robot), witness(against, robot))
+    return verify(robot, samples, seed, frames=frames or None, engines=engines)
 
 
 def _print_checks(report: Report) -> None:
@@ -171,20 +194,19 @@ def _print_checks(report: Report) -> None:
         click.echo(line)
 
 
-def _print_summary(reports: Sequence[Report], asked: int, frame: str) -> None:
-    """Several robots: a line for each, and what the failed ones have to say."""
+def _print_summary(reports: Sequence[Report], *, pairs: bool) -> None:
+    """Several robots: a line for each report, and what the failed ones have to say; ``pairs`` names the engines."""
     from rich.text import Text
 
     from pinscrew.verification import formats
 
-    table = output.table("robot", "engines", "largest error", "frames", "configurations")
+    table = output.table("robot", "engines", *["compared"] * pairs, "largest error", "frames", "configurations")
     for report in reports:
         mark = Text("agree", "green") if report.ok else Text("DISAGREE", "bold red")
+        compared = [Text(", ".join(report.engines))] * pairs
         numbers = (f"{report.largest_difference:.1e}", str(report.frames), str(report.configurations))
-        table.add_row(Text(report.robot), mark, *numbers)
+        table.add_row(Text(report.robot), mark, *compared, *numbers)
     output.console().print(table)
     for report in reports:
         if not report.ok:
             click.echo("\n".join((formats.summary(report), *formats.failures(report), *formats.details(report))))
-    agreeing = sum(report.ok for report in reports)
-    click.echo(f"{agreeing} of {asked} robots: both engines agree to rounding error on every {frame}")

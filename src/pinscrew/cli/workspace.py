@@ -41,12 +41,12 @@ def _one(_ctx: click.Context, _param: click.Parameter, value: str | None) -> flo
 def _steps(_ctx: click.Context, _param: click.Parameter, value: str | None) -> float | dict[str, float] | None:
     if value is None or "=" not in value:
         return None if value is None else _number(value)
-    return dict(_pairs(value.split(","), "NAME=STEP"))
+    return {name: _number(text) for name, text in arguments.pairs(value.split(","), "NAME=STEP").items()}
 
 
 def _ranges(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...]) -> dict[str, tuple[float, float]]:
     found = {}
-    for name, text in _named(values, "NAME=FROM:TO"):
+    for name, text in arguments.pairs(values, "NAME=FROM:TO").items():
         lower, colon, upper = text.partition(":")
         if not colon:
             raise click.BadParameter(f"{text!r} is not FROM:TO")
@@ -54,24 +54,6 @@ def _ranges(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...
     return found
 
 
-def _pairs(words: Any, form: str) -> list[tuple[str, float]]:
-    return [(name, _number(text)) for name, text in _named(words, form)]
-
-
-def _named(words: Any, form: str) -> list[tuple[str, str]]:
-    """Words NAME=TEXT, no name twice."""
-    found: dict[str, str] = {}
-    for word in words:
-        name, equals, text = word.strip().partition("=")
-        if not equals or not name:
-            raise click.BadParameter(f"{word!r} is not {form}")
-        if name in found:
-            raise click.BadParameter(f"{name!r} is given twice")
-        found[name] = text
-    return list(found.items())
-
-
-_FILE: Final = click.Path(dir_okay=False, path_type=Path)
 _ONLY_SWEEPS: Final = {"grid": "--grid", "compare": "--compare", "npz": "--npz"}
 _ONLY_MAPS: Final = {"voxel": "--voxel", "jobs": "--jobs", "scheduler": "--scheduler", "resume": "--resume"}
 
@@ -92,16 +74,22 @@ _ONLY_MAPS: Final = {"voxel": "--voxel", "jobs": "--jobs", "scheduler": "--sched
     callback=_ranges,
     help="A coordinate's range instead of its limits, such as joint1=-90deg:90deg; may be repeated.",
 )
-@click.option("--npz", type=_FILE, metavar="FILE", help="Write everything to this file, for numpy.")
-@click.option("--plot", type=_FILE, metavar="FILE", help="Draw a picture: .png, .svg or .pdf.")
+@click.option("--npz", type=arguments.OUTPUT, help="Write everything to this file, for numpy.")
+@click.option("--plot", type=arguments.OUTPUT, help="Draw a picture: .png, .svg or .pdf.")
 @click.option(
     "--color",
     "colour",
     type=click.Choice(["density", "manipulability", "condition", "singularity", "coverage"]),
     help="What the picture's colours tell: by default density, and of a map manipulability.",
 )
-@click.option("--compare", metavar="FRAME", help="Compute it from this choice of frame 0 too, and draw both.")
-@click.option("--map", "target", type=_FILE, metavar="FILE", help="Write a map of voxels instead, for many samples.")
+@click.option(
+    "--compare",
+    metavar="[FRAME]",
+    is_flag=False,
+    flag_value="",
+    help="Compute it from this choice of frame 0 too (or from the only one there is), and draw both.",
+)
+@click.option("--map", "target", type=arguments.OUTPUT, help="Write a map of voxels instead, for many samples.")
 @click.option("--voxel", metavar="EDGE", callback=_one, help="Edge of the map's voxels. By default 5cm.")
 @click.option("--jobs", type=click.IntRange(1), help="Processes for the map. By default as many as cores.")
 @click.option("--scheduler", metavar="ADDRESS", help="Let a dask cluster compute the map: its scheduler.")
@@ -115,7 +103,7 @@ def command(words: tuple[str, ...], target: Path | None, plot: Path | None, as_j
     as it grows; --resume goes on after an interruption.
 
     \b
-      pinscrew workspace planar_2r --grid 5deg --plot a2.png --compare frame0
+      pinscrew workspace planar_2r --grid 5deg --compare --plot a2.png
       pinscrew workspace scara --samples 1e4 --npz scara.npz
       pinscrew workspace scara --map map.npz --voxel 5cm --samples 1e5 --jobs 1
     """
@@ -164,12 +152,13 @@ def _sweep(
     **_: Any,
 ) -> None:
     from pinscrew.cli import workspace_summary as summary
-    from pinscrew.workspace.comparison import from_reference
+    from pinscrew.workspace.comparison import from_reference, other_reference
     from pinscrew.workspace.sweep import sweep
 
     found = sweep(robot, grid=grid, samples=samples, seed=seed, frame=tip, ranges=ranges)
     others = None
     if compare is not None:
+        compare = compare or other_reference(robot)
         others = from_reference(robot, found.q, found.metadata["frame"], compare)[:, :3, 3]
     if npz is not None:
         found.save(npz)

@@ -18,6 +18,7 @@ import sympy as sp
 
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
 from pinscrew.description import catalogue
+from pinscrew.engines.pair import pair_of
 from pinscrew.errors import InputError
 from pinscrew.lie import se3, so3
 from pinscrew.loading import load
@@ -96,9 +97,6 @@ def verdicts(erratum: Erratum, robot: Robot | None = None, seed: int = 0) -> tup
         robot: its robot, perhaps with other lengths; by default as the catalogue has it.
         seed: of the random numbers.
     """
-    from pinscrew.engines.pinocchio import Pinocchio
-    from pinscrew.engines.poe import PoE
-
     if erratum.check or robot is None:
         robot = load(erratum.check or erratum.robot)
     rng = np.random.default_rng(seed)
@@ -109,7 +107,7 @@ def verdicts(erratum: Erratum, robot: Robot | None = None, seed: int = 0) -> tup
     delta = rng.uniform(0.1, 0.5, SAMPLES)
     printed, right = (_evaluate(text, robot, q, qd, delta) for text in (erratum.printed, erratum.right))
     found = []
-    for engine in (PoE(robot), Pinocchio(robot)):
+    for engine in pair_of(robot):
         i, j = erratum.index
         truth = _quantity(engine, erratum, q, qd, delta)[:, i - 1, j - 1]
         errors = (float(abs(mine - truth).max()) for mine in (printed, right))

@@ -11,10 +11,10 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import sympy as sp
 
+from pinscrew.counts import whole
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.numeric import evaluate
 from pinscrew.description import urdf
-from pinscrew.errors import InputError
 from pinscrew.lie import se3
 from pinscrew.robot import Robot
 from pinscrew.typing import KINDS, FloatArray
@@ -97,10 +97,7 @@ def prove(derivation: Derivation, samples: int = 100, seed: int = 0) -> Proof:
         InputError: if ``samples`` is not positive, or ``seed`` negative.
         EngineError: if Pinocchio does not take the robot.
     """
-    if samples < 1:
-        raise InputError("samples", f"samples={samples}", remedy="give 1 or more")
-    if seed < 0:
-        raise InputError("seed", f"seed={seed}", remedy="give 0 or more")
+    samples, seed = whole("samples", samples, 1), whole("seed", seed, 0)
     rng = np.random.default_rng(seed)
     m = len(derivation.coordinates)
     sliding = {joint.master.symbol for joint in derivation.chain.joints if not joint.revolute}

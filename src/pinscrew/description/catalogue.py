@@ -15,7 +15,7 @@ from pinscrew.description import expand, markup
 from pinscrew.description.packages import is_file
 from pinscrew.errors import MissingExtraError, UnknownNameError
 
-__all__ = ["Entry", "bundled", "declared_arguments", "example_robots", "find", "robots_directory"]
+__all__ = ["Entry", "bundled", "declared_arguments", "example_robots", "find", "is_path", "robots_directory"]
 
 EXAMPLE_DATA: Final = "example-robot-data"
 
@@ -89,6 +89,12 @@ def example_robots() -> tuple[Entry, ...]:
     return tuple(entries)
 
 
+def is_path(source: str | Path, folder: Path = Path()) -> bool:
+    """Whether ``source`` is a path and not a name: a `Path`, text with a suffix of ours, or a file in ``folder``."""
+    path = Path(source)
+    return isinstance(source, Path) or path.suffix in (".urdf", ".xacro", ".xml") or is_file(folder / path)
+
+
 def find(source: str | Path) -> Entry:
     """The robot that ``source`` names: a path, a bundled robot, or a URDF of example-robot-data.
 
@@ -97,25 +103,25 @@ def find(source: str | Path) -> Entry:
     Raises:
         UnknownNameError: if it names none of them; the message lists what comes close.
     """
-    path = Path(source)
-    if isinstance(source, Path) or path.suffix in (".urdf", ".xacro", ".xml") or is_file(path):
-        return _of_path(path)
+    if is_path(source):
+        return _of_path(Path(source))
+    name = str(source)
     for entry in bundled():
-        if source == entry.name or source in entry.aliases:
+        if name == entry.name or name in entry.aliases:
             return entry
-    names = [name for entry in bundled() for name in (entry.name, *entry.aliases)]
+    names = [known for entry in bundled() for known in (entry.name, *entry.aliases)]
     try:
         others = example_robots()
     except MissingExtraError:
         others = ()
     for entry in others:
-        if source == entry.name:
+        if name == entry.name:
             return entry
     names += [entry.name for entry in others]
-    near = difflib.get_close_matches(source, names, n=5, cutoff=0.5)
-    near += [name for name in names if source.lower() in re.split(r"[/_-]", name.lower()) and name not in near]
+    near = difflib.get_close_matches(name, names, n=5, cutoff=0.5)
+    near += [known for known in names if name.lower() in re.split(r"[/_-]", known.lower()) and known not in near]
     raise UnknownNameError(
-        "unknown-robot", "robot or file", source, tuple(near) or tuple(entry.name for entry in bundled())
+        "unknown-robot", "robot or file", name, tuple(near) or tuple(entry.name for entry in bundled())
     )
 
 

@@ -55,7 +55,7 @@ def expand(path: Path, arguments: Mapping[str, str], packages: Packages | None =
         what = f"its expansion takes more than {SECONDS} s or {MEMORY // 2**20} MB"
         raise XacroError("xacro-limit", what, file=path, remedy="look for endless macros and huge numbers")
     for message in answer["warnings"]:
-        warnings.warn(PinscrewWarning("xacro", f"{path}: {message}"), stacklevel=2)
+        warnings.warn(PinscrewWarning("xacro", message, file=path), stacklevel=2)
     if "error" in answer:
         raise XacroError(
             answer["code"],

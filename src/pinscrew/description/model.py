@@ -12,7 +12,7 @@ import numpy as np
 
 from pinscrew.typing import FloatArray
 
-__all__ = ["JOINT_TYPES", "SCALAR_TYPES", "Description", "Joint", "JointType", "Limits", "Mimic", "Rebuilt"]
+__all__ = ["JOINT_TYPES", "SCALAR_TYPES", "Description", "Joint", "JointType", "Limits", "Mimic", "Rebuilt", "drivers"]
 
 JointType: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
@@ -117,6 +117,22 @@ class Description(Rebuilt):
             joint = above[link]
             yield joint
             link = joint.parent
+
+
+def drivers(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
+    """What drives each joint: the joint with a coordinate of its own, itself maybe, at the end of its mimics.
+
+    Args:
+        mimics: of all joints by their names, None for joints that follow no other.
+    """
+    found = {}
+    for name in mimics:
+        driver = Mimic(name)
+        while (mimic := mimics[driver.joint]) is not None:
+            offset = driver.offset + driver.multiplier * mimic.offset
+            driver = Mimic(mimic.joint, driver.multiplier * mimic.multiplier, offset)
+        found[name] = driver
+    return found
 
 
 def read_only(array: FloatArray) -> FloatArray:

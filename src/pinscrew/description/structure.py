@@ -100,8 +100,8 @@ class _Check:
         return kind(code, brief(what), file=self.file, line=element.line, element=label, remedy=remedy)
 
     def warn(self, code: str, element: Element, what: str) -> None:
-        message = f"{self.file}:{element.line}: {_label(element)}: {brief(what)}"
-        warnings.warn(PinscrewWarning(code, message), stacklevel=2)
+        remark = PinscrewWarning(code, f"{_label(element)}: {brief(what)}", file=self.file, line=element.line)
+        warnings.warn(remark, stacklevel=2)
 
     def _named(self, root: Element, tag: str) -> dict[str, Element]:
         """The elements with this tag, by their names, which must be there and unique."""

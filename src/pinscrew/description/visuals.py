@@ -126,8 +126,8 @@ class _Reader:
             first, count = self.missing[0], len(self.missing)
             more = f" (the first of {count} that are missing)" if count > 1 else ""
             whose = ", ".join(incomplete[:5]) + ", …" * (len(incomplete) > 5)
-            what = f"{self.file}: {first.what}{more}; instead, frames are drawn of {whose}"
-            warnings.warn(PinscrewWarning("no-mesh", what), stacklevel=2)
+            what = f"{first.what}{more}; instead, frames are drawn of {whose}"
+            warnings.warn(PinscrewWarning("no-mesh", what, file=self.file), stacklevel=2)
         return Looks(tuple(visuals), tuple(incomplete))
 
     def _error(self, code: str, link: str, element: Element, what: str, remedy: str = "") -> DescriptionError:

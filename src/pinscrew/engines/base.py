@@ -148,7 +148,10 @@ class CheckedEngine(ABC):
 
     def fk_jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> tuple[FloatArray, FloatArray]:
         """Pose and Jacobian of ``frame``: `fk` and `jacobian`, which engines may do in one pass."""
-        return self.fk(q, frame), self.jacobian(q, frame, kind)
+        frame, kind = self._robot.frame(frame), jacobian_kind(kind)
+        flat, batch = self._coordinates(q)
+        poses, jacobians = self._poses_and_jacobians(flat, frame, kind)
+        return poses.reshape(*batch, 4, 4), jacobians.reshape(*batch, 6, self._robot.nv)
 
     def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian along the velocities ``qd``.
@@ -214,21 +217,22 @@ class CheckedEngine(ABC):
     def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         """(N, nq) to (N, 6, nv)."""
 
+    def _poses_and_jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> tuple[FloatArray, FloatArray]:
+        """(N, nq) to (N, 4, 4) and (N, 6, nv); the general way, which engines shorten."""
+        return self._poses(q, frame), self._jacobians(q, frame, kind)
+
     @abstractmethod
     def _derivatives(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         """(N, nq) and (N, nv) to (N, 6, nv)."""
 
-    @abstractmethod
     def _velocities(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
-        """(N, nq) and (N, nv) to (N, 6)."""
+        """(N, nq) and (N, nv) to (N, 6); by the Jacobian, unless an engine knows better."""
+        return (self._jacobians(q, frame, kind) @ qd[:, :, None])[:, :, 0]
 
     def _coordinates(self, q: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
         """``q`` as a flat batch, and its batch axes."""
         checked = self._finite(q, "q", self._robot.nq, self._robot.coordinate_names)
-        flat = _flat(checked)
-        if self._quaternions:
-            flat = self._with_unit_quaternions(flat)
-        return flat, checked.shape[:-1]
+        return self._with_unit_quaternions(_flat(checked)), checked.shape[:-1]
 
     def _motion(self, q: ArrayLike, qd: ArrayLike) -> tuple[FloatArray, FloatArray, tuple[int, ...]]:
         """``q`` and ``qd`` as flat batches of one length, and their common batch axes."""
@@ -279,7 +283,7 @@ class CheckedEngine(ABC):
             raise InputError("not-finite", what, where=self._robot.name, remedy="give finite numbers")
 
     def _with_unit_quaternions(self, q: FloatArray) -> FloatArray:
-        q = q.copy()
+        q = q.copy() if self._quaternions else q
         for start in self._quaternions:
             norms = np.linalg.norm(q[:, start : start + 4], axis=1, keepdims=True)
             if (abs(norms - 1.0) > QUATERNION_TOLERANCE).any():

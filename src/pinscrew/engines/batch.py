@@ -8,7 +8,7 @@ results are written once, past the cache if they are many, into arrays that the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar, cast
 
@@ -34,6 +34,9 @@ Frames: TypeAlias = str | Sequence[str] | None
 
 BLOCK: Final = 2048
 """Configurations of a block of `Batch.reduce`: its results stay in the cache."""
+MOST_NUMBERS: Final = 2**13
+"""Numbers about each configuration up to which a kernel is compiled; it then takes 1 MB of the stack. Compiling more
+takes longer than numpy does for as many configurations as fit in the memory."""
 
 
 class Batch(PoE):
@@ -42,7 +45,8 @@ class Batch(PoE):
     It is an `Engine` like the others. Beside that, ``frame`` may be several names, which gives a frame axis F before
     the last two; ``out`` takes arrays to write to; and float32 coordinates, or float32 arrays to write to, give
     float32 results (computed in double precision all the same). Frames that a planar or floating joint moves are
-    computed with numpy, and so is everything where llvmlite is not installed (extra ``fast``).
+    computed with numpy, and so are questions with more than `MOST_NUMBERS` numbers to a configuration, and everything
+    where llvmlite is not installed (extra ``fast``).
 
     A call that raises may have written to ``out`` already.
     """
@@ -183,6 +187,7 @@ class Batch(PoE):
         if numbers.ndim != 2:
             what = f"q has the batch axes {numbers.shape[:-1]}"
             raise InputError("shape", what, where=self._robot.name, remedy="give one axis of N configurations")
+        self._refuse_not_finite(numbers, "q", self._robot.coordinate_names)  # blocks would count their own rows
         state = initial
         out = self.fk_jacobian(numbers[:BLOCK], frame, kind, threads=1)
         for start in range(0, len(numbers), BLOCK):
@@ -212,17 +217,15 @@ class Batch(PoE):
         threads: int | None,
     ) -> list[FloatArray]:
         """The parts of the answer, in the order of `Question`."""
-        one = frame is None or isinstance(frame, str)
-        asked: Sequence[str | None] = [frame] if frame is None or isinstance(frame, str) else frame
+        one = isinstance(frame, str) or not isinstance(frame, Iterable)
+        asked = cast("Sequence[str | None]", [frame] if one else frame)
         names = tuple(self._robot.frame(name) for name in asked)
         if not names:
             raise InputError("frames", "there are no frames to compute", remedy="name one or more")
         count = self._threads if threads is None else thread_count(threads)
         numbers = self._numbers(q)
         batch = numbers.shape[:-1]
-        ends: list[tuple[int, ...]] = [(4, 4)] if question.poses else []
-        ends += [(6, self._robot.nv)] if question.kind is not None else []
-        ends += [()] if question.part is not None else []
+        ends = question.shapes(self._robot.nv)
         start = batch if one else (*batch, len(names))
         shapes = [(*start, *end) for end in ends]
         results = outputs(given, shapes, numbers, self._robot.name)
@@ -239,14 +242,16 @@ class Batch(PoE):
         """The kernel for a question, or None if numpy has to answer it."""
         key = names, question, single
         if key not in self._kernels:
-            self._kernels[key] = None
+            kernel = None
             chains = [chain_to(self._robot, name) for name in names]
             known = [chain for chain in chains if chain is not None]
-            if can_compile() and self._robot.nv and len(known) == len(chains):
+            robot = self._robot
+            few = len(names) * sum(map(math.prod, question.shapes(robot.nv))) <= MOST_NUMBERS
+            if can_compile() and robot.nv and few and len(known) == len(chains):
                 from pinscrew.engines.compiled.rows import compile_kernel
 
-                robot = self._robot
-                self._kernels[key] = compile_kernel(known, question, robot.nq, robot.nv, (single[0], single[1]))
+                kernel = compile_kernel(known, question, robot.nq, robot.nv, (single[0], single[1]))
+            self._kernels[key] = kernel  # only now: another thread may be waiting for it, or compile the same
         return self._kernels[key]
 
     def _fill_with_numpy(

@@ -111,11 +111,12 @@ class HybridEngine(CheckedEngine):
     def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         return self._still(q, frame).jacobian(kind)[:, 0]
 
+    def _poses_and_jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> tuple[FloatArray, FloatArray]:
+        told = self._still(q, frame)
+        return told.poses[:, 0], told.jacobian(kind)[:, 0]
+
     def _derivatives(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         return self._told(q, qd, [frame]).derivative(kind)[:, 0]
-
-    def _velocities(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
-        return (self._jacobians(q, frame, kind) @ qd[..., None])[..., 0]
 
     def _still(self, q: FloatArray, frame: str) -> Told:
         return self._told(q, None, [frame])

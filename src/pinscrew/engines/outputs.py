@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
+from itertools import combinations
 from typing import Any, Final, TypeAlias
 
 import numpy as np
@@ -32,23 +34,27 @@ def outputs(
         robot: its name, for errors.
 
     Raises:
-        InputError: if an array given is not fit to write to, or new ones need more memory than is free.
+        InputError: if arrays given are not fit to write to, or new ones need more memory than is free.
     """
+    if len(given) != len(shapes):
+        raise InputError("out", f"out has {len(given)} arrays", where=robot, remedy=f"give {len(shapes)}")
     if all(array is None for array in given):
         needed = sum(int(np.prod(shape)) for shape in shapes) * q.dtype.itemsize
         if needed > SMALL and needed > (free := free_bytes()):
-            what = f"{len(q)} configurations give {needed / 1e9:.3g} GB of results, but {free / 1e9:.3g} GB are free"
+            count = math.prod(q.shape[:-1])
+            what = f"{count} configurations give {needed / 1e9:.3g} GB of results, but {free / 1e9:.3g} GB are free"
             remedy = "ask for blocks of them, with out= to use the same memory again, or use reduce"
             raise InputError("memory", what, where=robot, remedy=remedy)
         return [np.empty(shape, q.dtype) for shape in shapes]
     kind = np.float32 if getattr(given[0], "dtype", None) == np.float32 else np.float64
-    return [_checked(array, shape, kind, q, robot) for array, shape in zip(given, shapes, strict=True)]
+    found = [_checked(array, shape, kind, robot) for array, shape in zip(given, shapes, strict=True)]
+    if any(np.may_share_memory(*pair) for pair in combinations([q, *found], 2)):
+        raise InputError("out", "out overlaps q or itself", where=robot, remedy="give arrays of their own")
+    return found
 
 
-def _checked(array: Results | None, shape: tuple[int, ...], kind: type, q: NDArray[Any], robot: str) -> Results:
+def _checked(array: Results | None, shape: tuple[int, ...], kind: type, robot: str) -> Results:
     if isinstance(array, np.ndarray) and array.shape == shape and array.dtype == kind:
-        if np.may_share_memory(array, q):
-            raise InputError("out", "out overlaps q", where=robot, remedy="give an array of its own")
         if array.flags.carray:  # C-contiguous, aligned and writeable
             return array
         found = "an array that is read-only or not contiguous"
@@ -62,11 +68,11 @@ def thread_count(threads: int | None) -> int:
     """A number of threads, checked; by default the cores that the process may use.
 
     Raises:
-        InputError: if it is below 1 or more than there are.
+        InputError: if it is no whole number, below 1 or more than there are.
     """
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if threads is None:
         return cores
-    if not 1 <= threads <= cores:
-        raise InputError("threads", f"threads={threads}", remedy=f"give 1 to {cores}, the cores of this machine")
-    return threads
+    if threads not in range(1, cores + 1):
+        raise InputError("threads", f"threads={threads!r}", remedy=f"give 1 to {cores}, the cores of this machine")
+    return int(threads)

@@ -8,13 +8,10 @@ call and their Jacobian columns folded after it. Nothing here uses the descripti
 
 from __future__ import annotations
 
-import os
 import re
-import sys
 import tempfile
 import threading
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from math import hypot, isfinite
 from typing import Any, Final
 
@@ -24,6 +21,7 @@ from numpy import ndarray
 
 from pinscrew.engines.base import Answers, CheckedEngine, JointView
 from pinscrew.engines.expansion import Driven, Expansion, read_mimics
+from pinscrew.engines.native import standard_error_to
 from pinscrew.errors import EngineError, UnsupportedError
 from pinscrew.robot import UNIVERSE, Robot
 from pinscrew.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
@@ -35,6 +33,12 @@ MAX_COORDINATES: Final = 200
 _DOUBLE: Final = np.dtype(np.float64)
 MAX_DEPTH: Final = 1000
 """Longest chain of moving joints; Pinocchio's stack overflows at about 3500."""
+
+# Looked up once: of one configuration, even that can be measured.
+_forward_kinematics: Final = pin.forwardKinematics
+_joint_jacobians: Final = pin.computeJointJacobians
+_place_frame: Final = pin.updateFramePlacement
+_frame_jacobian: Final = pin.getFrameJacobian
 
 _REFERENCE: Final[dict[KindLike, Any]] = {
     "spatial": pin.ReferenceFrame.WORLD,
@@ -120,8 +124,8 @@ class Pinocchio(CheckedEngine):
             x = None
         if x is None:
             return super().fk(q, frame)
-        pin.forwardKinematics(self.model, data, x)
-        pose: FloatArray = pin.updateFramePlacement(self.model, data, index).homogeneous
+        _forward_kinematics(self.model, data, x)
+        pose: FloatArray = _place_frame(self.model, data, index).homogeneous
         return pose
 
     def jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
@@ -146,9 +150,9 @@ class Pinocchio(CheckedEngine):
         if x is None:
             return super().fk_jacobian(q, frame, kind)
         model = self.model
-        pin.computeJointJacobians(model, data, x)
-        pose: FloatArray = pin.updateFramePlacement(model, data, index).homogeneous
-        J: FloatArray = pin.getFrameJacobian(model, data, index, reference)
+        _joint_jacobians(model, data, x)
+        pose: FloatArray = _place_frame(model, data, index).homogeneous
+        J: FloatArray = _frame_jacobian(model, data, index, reference)
         return pose, J if self._plain else self._folded(J)
 
     def _alone(self, q: Any) -> FloatArray | None:
@@ -156,7 +160,10 @@ class Pinocchio(CheckedEngine):
         if type(q) is ndarray and q.shape == self._one and q.dtype is _DOUBLE:
             values = q.tolist()
             if isfinite(hypot(*values)):  # what is not may only have overflowed: the long way looks closer
-                return q if self._identical else self._expansion.one(q, values)
+                try:
+                    return q if self._identical else self._expansion.one(q, values)
+                except ValueError:  # the cosine of an angle that its multiplier made infinite
+                    return None
         return None
 
     def _map_coordinates(self) -> tuple[Expansion, FloatArray]:
@@ -277,7 +284,7 @@ def _build(robot: Robot) -> Any:
     root = (pin.JointModelFreeFlyer(),) if robot.floating_base else ()
     with tempfile.TemporaryFile() as said:
         try:
-            with _standard_error_to(said.fileno()):
+            with standard_error_to(said.fileno()):
                 return pin.buildModelFromXML(robot.description.text, *root)
         except (RuntimeError, ValueError, IndexError) as error:
             said.seek(0)
@@ -285,16 +292,3 @@ def _build(robot: Robot) -> Any:
             words = re.sub(r" at line \d+ in \S+", "", words)  # of the sources that its wheel was built from
             what = f"Pinocchio refuses the file: {words}"
             raise EngineError("pinocchio-refuses", what, where=robot.description.file) from None
-
-
-@contextmanager
-def _standard_error_to(descriptor: int) -> Iterator[None]:
-    """Send there what C and C++ write to standard error; urdfdom's reasons go nowhere else."""
-    sys.stderr.flush()
-    kept = os.dup(2)
-    os.dup2(descriptor, 2)
-    try:
-        yield
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)

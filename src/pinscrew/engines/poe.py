@@ -67,15 +67,20 @@ class PoE(CheckedEngine):
             store(out[block], chain.jacobian(frame, kind))
         return out
 
+    def _poses_and_jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> tuple[FloatArray, FloatArray]:
+        poses, jacobians = np.empty((len(q), 4, 4)), np.empty((len(q), 6, self._robot.nv))
+        for block in _blocks(len(q)):
+            chain = _Chain(self._robot, self._factors, q[block])
+            _store_pose(poses[block], *chain.pose(frame))
+            store(jacobians[block], chain.jacobian(frame, kind))
+        return poses, jacobians
+
     def _derivatives(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         out = np.empty((len(q), 6, self._robot.nv))
         for block in _blocks(len(q)):
             chain = _Chain(self._robot, self._factors, q[block], qd[block])
             store(out[block], chain.derivative(frame, kind))
         return out
-
-    def _velocities(self, q: FloatArray, qd: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
-        return (self._jacobians(q, frame, kind) @ qd[:, :, None])[:, :, 0]
 
     def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
         """Everything about ``frames`` at a flat batch, sharing the way down the tree; see the base class."""
@@ -208,7 +213,7 @@ class _Chain:
         """As `_step`, for joints that put their child at a pose X in their own frame T: a factor T X T⁻¹."""
         motion = factor.motion
         if motion.joint.type == "planar":
-            x, y, theta = self._q[motion.q : motion.q + 3]
+            x, y, theta = self._q[motion.coordinates]
             position = np.stack([x, y, np.zeros_like(x)])
             X = rotation(factor.basis, theta)
         else:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from pinscrew.findings.model import Finding
 from pinscrew.findings.paths import below
+from pinscrew.words import one_line
 
-__all__ = ["cell", "to_markdown", "unbroken"]
+__all__ = ["cell", "to_markdown"]
 
 
 def to_markdown(findings: Sequence[Finding]) -> str:
@@ -24,14 +25,9 @@ def to_markdown(findings: Sequence[Finding]) -> str:
     return "\n".join([*rows, ""])
 
 
-def unbroken(text: str) -> str:
-    """Text without line breaks; names may hold them."""
-    return " ".join(text.split())
-
-
 def cell(text: str) -> str:
     """Text on one line, with what Markdown would take as markup made plain."""
-    text = unbroken(text)
+    text = one_line(text)
     for mark in "\\`*_|<>[]":
         text = text.replace(mark, f"\\{mark}")
     return text

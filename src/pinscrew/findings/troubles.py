@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Final
 
 from pinscrew.description.expand import is_xacro
 from pinscrew.description.packages import is_file
-from pinscrew.errors import DescriptionError, PinscrewError, PinscrewWarning, XacroError
+from pinscrew.errors import LONGEST, DescriptionError, PinscrewError, PinscrewWarning, XacroError
 from pinscrew.findings.model import Finding
 from pinscrew.words import brief, one_line
 
 __all__ = ["expanded", "from_error", "from_warning"]
-
-_LONGEST: Final = 1200
-"""Characters of a message that may come from a file."""
 
 
 def from_error(error: PinscrewError, robot: str = "") -> Finding:
@@ -50,4 +46,4 @@ def expanded(file: str, line: int | None) -> tuple[int | None, str]:
 
 
 def _short(text: str) -> str:
-    return one_line(brief(text, _LONGEST))
+    return one_line(brief(text, LONGEST))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from pinscrew.description import markup
-from pinscrew.description.model import Description, Joint, Limits
+from pinscrew.description.model import Description, Joint, Limits, drivers
 from pinscrew.description.packages import is_file
 from pinscrew.errors import DescriptionError
 from pinscrew.lie import se3
@@ -49,11 +48,11 @@ class Lock:
         """
         held = self.document
         homes: dict[str, FloatArray] = {held.base: np.eye(4)}
-        by_name = {joint.name: joint for joint in held.joints}
+        driven = drivers({joint.name: joint.mimic for joint in held.joints})
         joints = []
         for joint in held.joints:
             homes[joint.child] = joint.home
-            joints.append(_joint(joint, homes[joint.parent], _value(joint, by_name)))
+            joints.append(_joint(joint, homes[joint.parent], driven[joint.name].offset))
         description = Description(
             name=held.robot,
             file=str(self.path),
@@ -83,16 +82,6 @@ def read_lock(path: str | Path) -> Lock:
         remedy = f"write it with pinscrew lock {path.with_suffix('')}"
         raise DescriptionError("not-locked", "there is no such lock", file=path, remedy=remedy)
     return Lock(path, parsing.parse(markup.read(path), path))
-
-
-def _value(joint: LockedJoint, joints: Mapping[str, LockedJoint]) -> float:
-    """The joint's value where all coordinates are zero: the offsets of the mimics from it to the one it follows."""
-    value, factor = 0.0, 1.0
-    while joint.mimic is not None:
-        value += factor * joint.mimic.offset
-        factor *= joint.mimic.multiplier
-        joint = joints[joint.mimic.joint]
-    return value
 
 
 def _joint(joint: LockedJoint, T_base_parent: FloatArray, value: float) -> Joint:

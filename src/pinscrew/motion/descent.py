@@ -134,10 +134,9 @@ class Descent:
         diagonal = np.arange(len(free.q))
         H[:, diagonal, diagonal] += (damping * (error**2).sum(axis=1) + FLOOR * np.trace(H, axis1=1, axis2=2))[:, None]
         y = _solved(H, g)
-        lower, upper = free.limits.T
         stuck = np.zeros(y.shape, dtype=bool)
         for _ in diagonal:  # each round keeps one more coordinate at its limit, or is the last
-            crossing = ~free.wraps & (((x <= lower) & (y < 0.0)) | ((x >= upper) & (y > 0.0)))
+            crossing = free.held(x, y)
             lanes = crossing.any(axis=1)
             if not lanes.any():
                 break

@@ -9,6 +9,7 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from pinscrew.counts import whole
 from pinscrew.errors import InputError
 from pinscrew.lie._checks import read
 from pinscrew.mechanism import JointMotion
@@ -68,6 +69,11 @@ class Freedoms:
         """The same freedoms without limits."""
         return replace(self, limits=np.broadcast_to([-math.inf, math.inf], self.limits.shape))
 
+    def held(self, x: FloatArray, step: FloatArray) -> npt.NDArray[np.bool_]:
+        """Which of these coordinates are at a limit that a step from ``x`` would cross, shape (..., m)."""
+        lower, upper = self.limits.T
+        return np.asarray(~self.wraps & (((x <= lower) & (step < 0.0)) | ((x >= upper) & (step > 0.0))))
+
     def put(self, q: FloatArray, x: FloatArray) -> FloatArray:
         """``q`` (..., nq) with the values ``x`` (..., m) of these coordinates."""
         out = np.broadcast_to(q, (*x.shape[:-1], self.robot.nq)).copy()
@@ -95,10 +101,7 @@ class Freedoms:
         Raises:
             InputError: if ``starts`` is no positive or ``seed`` a negative number, or a displacement has no limits.
         """
-        if not _at_least(starts, 1):
-            raise InputError("starts", f"starts={starts}", remedy="give a whole number, 1 or more")
-        if not _at_least(seed, 0):
-            raise InputError("seed", f"seed={seed}", remedy="give a whole number, 0 or more")
+        starts, seed = whole("starts", starts, 1), whole("seed", seed, 0)
         lower, upper = self.limits.T
         endless = ~np.isfinite(lower) | ~np.isfinite(upper)
         if (endless & self.slides).any():
@@ -144,7 +147,6 @@ def freedoms(
     if not 0.0 < length < math.inf:
         raise InputError("length", f"length={length}", remedy="give a positive number of metres")
     velocity = dict(sorted((motion.q, motion.v) for motion in motions))
-    slides = {m.q for m in robot.mechanism.motions if m.joint.type == "prismatic" and m.joint.mimic is None}
     q = np.array(list(velocity), dtype=np.intp)
     return Freedoms(
         robot=robot,
@@ -152,7 +154,7 @@ def freedoms(
         q=q,
         v=np.array(list(velocity.values()), dtype=np.intp),
         limits=bounds[q],
-        slides=np.array([i in slides for i in velocity]),
+        slides=robot.mechanism.coordinates.slides[q],
         turns=np.array([all(_whole(motion) for motion in motions if motion.q == i) for i in velocity]),
         length=length,
     )
@@ -167,11 +169,6 @@ def task_rows(task: Task, length: float) -> FloatArray:
     if task not in TASKS:
         raise InputError("task", f"task={task!r}", remedy=f"use {' or '.join(map(repr, TASKS))}")
     return np.array([1.0 / length] * 3 + [1.0] * (3 if task == "pose" else 0))
-
-
-def _at_least(number: object, least: int) -> bool:
-    """Whether this is a whole number, and not less."""
-    return isinstance(number, (int, np.integer)) and bool(number >= least)
 
 
 def _whole(motion: JointMotion) -> bool:

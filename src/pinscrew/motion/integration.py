@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import operator
 from collections.abc import Callable
 from decimal import Decimal
 from typing import Final, TypeAlias
@@ -11,6 +10,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from pinscrew import manifold
+from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
 from pinscrew.errors import InputError
@@ -85,7 +85,7 @@ def integrate(
     rates = _rates(robot, qd)
     q = schemes.coordinates(robot, _first(robot, engine, q0), schemes.coordinate_steps(robot, scheme, rates, t, dt))
     given = rates(t)
-    advance = advance or _silent
+    advance = advance or (lambda _: None)
     advance("coordinates")
     references = engine.fk(q, frame)
     poses = references if scheme in ("euler", "rk4") else schemes.poses(engine, frame, scheme, q, given, dt)
@@ -124,7 +124,8 @@ def times(
     if steps is not None and duration is not None:
         raise InputError("duration", "both steps and a duration are given", where=where, remedy="give one of them")
     if steps is not None:
-        count = _whole(steps, where)
+        count = whole("steps", steps, 1, where=where)
+        _few(count, where)
         last = float(origin + delta * count)
     else:
         if duration is not None:
@@ -159,21 +160,6 @@ def _few(count: float, where: str) -> None:
     if not count <= MOST_STEPS:
         what = f"{count:.4g} steps"
         raise InputError("steps", what, where=where, remedy=f"at most {MOST_STEPS}: use a larger dt")
-
-
-def _silent(stage: str) -> None:
-    """Nobody wants to know."""
-
-
-def _whole(steps: int, where: str) -> int:
-    try:
-        count = operator.index(steps)
-    except TypeError:
-        count = 0
-    if count < 1:
-        raise InputError("steps", f"steps={steps!r}", where=where, remedy="expected a positive whole number")
-    _few(count, where)
-    return count
 
 
 def _number(value: float, name: str, where: str) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pinscrew.engines.base import Engine
+from pinscrew.engines.pair import pair_of
 from pinscrew.errors import InputError
 from pinscrew.lie import se3, so3
 from pinscrew.lie._checks import read, require_bottom_row, require_finite, require_rotation
@@ -133,7 +134,7 @@ def ik(
     if not 0.0 < tolerance < math.inf:
         raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a positive number, such as 1e-9")
     T, q, batch = _asked(free, T_base_tip, q0, limits)
-    search = _Search(free, engines or _default_engines(robot), task, starts, seed, tolerance)
+    search = _Search(free, engines or pair_of(robot), task, starts, seed, tolerance)
     parts = [search.solve(T[i : i + BLOCK], q[i : i + BLOCK], q0 is not None) for i in range(0, len(T), BLOCK)]
     found = [np.concatenate(part) for part in zip(*(parts or [search.solve(T, q, q0 is not None)]), strict=True)]
     configurations, distance, angle, reason = found
@@ -259,10 +260,3 @@ def _asked(
         raise InputError("shape", what, where=robot.name) from None
     poses = np.broadcast_to(se3.project(T), (*batch, 4, 4)).reshape(-1, 4, 4)
     return poses, np.broadcast_to(within, (*batch, robot.nq)).reshape(math.prod(batch), robot.nq), batch
-
-
-def _default_engines(robot: Robot) -> tuple[Engine, Engine]:
-    from pinscrew.engines.pinocchio import Pinocchio
-    from pinscrew.engines.poe import PoE
-
-    return PoE(robot), Pinocchio(robot)

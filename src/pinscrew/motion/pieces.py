@@ -91,7 +91,7 @@ class Pieces(Profile):
         lists = {name: pieces for name, pieces in rates.items() if not isinstance(pieces, Expression)}
         if not lists:
             what = "no velocity has pieces, so it is not said for how long"
-            remedy = "write at least one as pieces, such as 0 <= t <= 1"
+            remedy = "write at least one as pieces, such as 0 <= t <= 1; they may be longer than what is asked for"
             raise Place(source).error("profile-interval", what, remedy)
         for name, pieces in lists.items():
             _check(name, pieces, source)

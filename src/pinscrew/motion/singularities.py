@@ -7,8 +7,9 @@ from typing import Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
+from pinscrew.engines.poe import PoE
 from pinscrew.motion.freedoms import TURN, Freedoms, Task, freedoms
-from pinscrew.motion.singularity import TOLERANCE, ScaledJacobian, Singularity, default_engine
+from pinscrew.motion.singularity import TOLERANCE, ScaledJacobian, Singularity
 from pinscrew.robot import Robot
 from pinscrew.typing import ArrayLike, FloatArray
 
@@ -57,7 +58,7 @@ def find_singularities(
             ``starts`` is not positive or ``seed`` negative.
     """
     free = freedoms(robot, frame, limits, length)
-    jacobian = ScaledJacobian(free, engine or default_engine(robot), task, tolerance)
+    jacobian = ScaledJacobian(free, engine or PoE(robot), task, tolerance)
     x = _descend(jacobian, free.draw(seed, starts))
     found = [jacobian.classify(q) for q in free.put(robot.neutral, free.nearest_turn(x, np.zeros_like(x)))]
     families: dict[tuple[object, ...], list[Singularity]] = {}
@@ -71,15 +72,13 @@ def find_singularities(
 def _descend(jacobian: ScaledJacobian, x: FloatArray) -> FloatArray:
     """From values (N, m) to where the last singular value is zero, or as small as can be: (N, m)."""
     free, last = jacobian.free, jacobian.freedoms - 1
-    lower, upper = free.limits.T
     x, going = x.copy(), np.arange(len(x) if last >= 0 else 0)
     for _ in range(STEPS):
         q = free.put(free.robot.neutral, x[going])
         U, values, Vt = np.linalg.svd(jacobian.matrix(q))
         sigma = values[:, last]
         g = np.einsum("na,niab,nb->ni", U[:, :, last], jacobian.derivatives(q), Vt[:, last])
-        outward = ~free.wraps & (((x[going] <= lower) & (g > 0.0)) | ((x[going] >= upper) & (g < 0.0)))
-        g[outward] = 0.0
+        g[free.held(x[going], -g)] = 0.0
         slope = np.linalg.norm(g, axis=1)
         on = (sigma > ZERO) & (slope > ZERO)  # where there is no slope, it is as small as can be
         going, g, slope = going[on], g[on], slope[on]

@@ -21,6 +21,7 @@ from typing import Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
+from pinscrew.engines.poe import PoE
 from pinscrew.errors import InputError
 from pinscrew.lie._checks import read, require_finite
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
@@ -28,7 +29,7 @@ from pinscrew.robot import Robot
 from pinscrew.screw import Screw
 from pinscrew.typing import ArrayLike, FloatArray
 
-__all__ = ["TOLERANCE", "ScaledJacobian", "Singularity", "classify_singularity", "default_engine"]
+__all__ = ["TOLERANCE", "ScaledJacobian", "Singularity", "classify_singularity"]
 
 TOLERANCE: Final = 1e-9
 """Singular values below this part of the largest count as zero."""
@@ -145,7 +146,7 @@ def classify_singularity(
     if values.ndim != 1:
         raise InputError("shape", f"q has shape {values.shape}", where=robot.name, remedy=f"expected ({robot.nq},)")
     require_finite(values, 1, "classify_singularity", "q")
-    jacobian = ScaledJacobian(free, engine or default_engine(robot), task, tolerance)
+    jacobian = ScaledJacobian(free, engine or PoE(robot), task, tolerance)
     return jacobian.classify(values)
 
 
@@ -247,10 +248,3 @@ def _words(screw: Screw, task: Task) -> str:
     if screw.pitch == 0.0:
         return f"translation of the points on {line}, along it"
     return f"what a wrench of pitch {screw.pitch:.4g} m on {line} would drive"
-
-
-def default_engine(robot: Robot) -> Engine:
-    """The engine that is asked where none is given."""
-    from pinscrew.engines.poe import PoE
-
-    return PoE(robot)

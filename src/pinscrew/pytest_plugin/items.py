@@ -111,9 +111,12 @@ class LockItem(RobotItem):
         """Compare the file with its lock."""
         from pinscrew.lockfile import check
 
+        trouble: Exception | None = None
         try:
             checked = check(self._lock, packages=self._packages)
-        except TROUBLE as trouble:
+        except TROUBLE as error:
+            trouble = error
+        if trouble is not None:  # said out of the except clause, or pytest would tell both
             self.fail_for(trouble)
         if checked.changes is not None and not checked.same:
             lock = os.path.relpath(self._lock, self.config.invocation_params.dir)

@@ -79,8 +79,7 @@ class Subject:
     def line(self, report: Report, check: Check) -> int | None:
         """The line in the file of the joint that the diagnosis names first."""
         lines = joint_lines(self.listed.file)
-        named = (name for words in report.diagnosis for name in lines if f"joint {name!r}" in words)
-        return lines.get(next(named, check.place.joint))
+        return next((lines[joint] for joint in (*report.blamed, check.place.joint) if joint in lines), None)
 
 
 def joint_lines(file: Path) -> dict[str, int]:

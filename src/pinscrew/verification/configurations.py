@@ -99,13 +99,7 @@ def configurations(robot: Robot, samples: int, seed: int) -> Configurations:
 
 def angles(robot: Robot) -> npt.NDArray[np.bool_]:
     """Which coordinates are angles (or quaternions', whose range does not matter), shape (nq,)."""
-    found = np.ones(robot.nq, dtype=bool)
-    for motion in robot.mechanism.motions:
-        if motion.joint.type == "prismatic" and motion.joint.mimic is None:
-            found[motion.q] = False
-        elif motion.joint.type in ("floating", "planar"):
-            found[motion.q : motion.q + (3 if motion.joint.type == "floating" else 2)] = False
-    return found
+    return ~robot.mechanism.coordinates.slides
 
 
 def sizes(robot: Robot, q: FloatArray) -> FloatArray:

@@ -10,8 +10,9 @@ from typing import Any, Final
 
 from pinscrew.errors import PinscrewError
 from pinscrew.findings import junit
-from pinscrew.findings.markdown import cell, unbroken
+from pinscrew.findings.markdown import cell
 from pinscrew.verification.report import Check, Report
+from pinscrew.words import one_line
 
 __all__ = [
     "SCHEMA",
@@ -44,7 +45,7 @@ def summary(report: Report) -> str:
     """One line: what was compared, and the outcome."""
     outcome = "agree" if report.ok else "DISAGREE"
     return (
-        f"{unbroken(report.robot)}: {report.engines[0]} and {report.engines[1]} {outcome} on {report.frames} frames "
+        f"{one_line(report.robot)}: {report.engines[0]} and {report.engines[1]} {outcome} on {report.frames} frames "
         f"at {report.configurations} configurations (seed {report.seed})"
     )
 
@@ -57,7 +58,7 @@ def place(check: Check) -> str:
         found.joint and f"joint {found.joint}",
         found.configuration,
     )
-    return unbroken(", ".join(part for part in parts if part))
+    return one_line(", ".join(part for part in parts if part))
 
 
 def to_text(report: Report) -> str:
@@ -82,7 +83,11 @@ def details(report: Report) -> list[str]:
 
 def failures(report: Report) -> list[str]:
     """One line for each failed check."""
-    return [f"{c.name}: error {c.error:.1e} above {c.tolerance:.1e}, largest at {place(c)}" for c in report.failed]
+    return [f"{c.name}: error {c.error:.1e} above {c.tolerance:.1e}{_largest_at(c)}" for c in report.failed]
+
+
+def _largest_at(check: Check) -> str:
+    return f", largest at {place(check)}" if place(check) else ""
 
 
 def to_json(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
@@ -150,7 +155,7 @@ def _title(report: Report) -> str:
 def _case(report: Report, check: Check) -> junit.Case:
     if check.ok:
         return junit.Case(check.name)
-    message = f"error {check.error:.3e} above {check.tolerance:.3e}, largest at {place(check)}"
+    message = f"error {check.error:.3e} above {check.tolerance:.3e}{_largest_at(check)}"
     lines = dict.fromkeys((*check.remarks, *report.diagnosis, f"q = {list(check.place.q)}"))
     return junit.Case(check.name, junit.Problem("failure", message, "disagreement", "\n".join(lines)))
 

@@ -8,7 +8,9 @@ from typing import Final
 
 import numpy as np
 
+from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
+from pinscrew.engines.pair import pair_of
 from pinscrew.errors import InputError
 from pinscrew.robot import Robot
 from pinscrew.verification import comparison, compiled, diagnosis, differences, structure
@@ -51,20 +53,18 @@ def verify(
         engines: two engines to compare instead of `PoE` and `Pinocchio` of this robot.
 
     Raises:
-        InputError: if ``samples`` or ``seed`` is negative, ``tolerance`` not positive and finite, or ``frames`` empty.
+        InputError: if ``samples`` or ``seed`` is negative or no whole number, ``tolerance`` is not positive and
+            finite, or ``frames`` is empty.
         UnknownNameError: if there is no such frame.
         EngineError, UnsupportedError: if Pinocchio does not take the robot.
     """
-    if samples < 0:
-        raise InputError("samples", f"samples={samples}", remedy="give 0 or more")
-    if seed < 0:
-        raise InputError("seed", f"seed={seed}", remedy="give 0 or more")
+    samples, seed = whole("samples", samples, 0), whole("seed", seed, 0)
     if not 0.0 < tolerance < math.inf:
         raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a positive number, such as 1e-12")
     names = tuple(robot.frame(frame) for frame in (robot.frame_names if frames is None else frames))
     if not names:
         raise InputError("frames", "there are no frames to compare", remedy="leave frames out to compare all")
-    pair = engines or _default_engines(robot)
+    pair = engines or pair_of(robot)
     known = tuple(name for name in names if all(name in engine.robot.frame_names for engine in pair))
     remarks = structure.compare(*pair)
     where = configurations(robot, samples, seed)
@@ -111,13 +111,6 @@ def check_names(samples: int) -> tuple[str, ...]:
     )
 
 
-def _default_engines(robot: Robot) -> tuple[Engine, Engine]:
-    from pinscrew.engines.pinocchio import Pinocchio
-    from pinscrew.engines.poe import PoE
-
-    return PoE(robot), Pinocchio(robot)
-
-
 def _numbers(
     robot: Robot,
     engines: tuple[Engine, Engine],
@@ -152,7 +145,7 @@ def _numbers(
     for engine in engines:
         check = differences.compare_differences(engine, points.q, points.scales, leaves)
         done.append(check.check(robot, leaves, points))
-    return done + [w.check(robot, leaves, where) for w in (extra.worst if extra is not None else ())]
+    return done + ([w.check(robot, extra.frames, where) for w in extra.worst] if extra is not None else [])
 
 
 def _block_length(robot: Robot, frames: int) -> int:

@@ -88,7 +88,7 @@ def document(model: Model, state: State, *, live: str = "", picture: tuple[int, 
                 "q": motion.q,
                 "v": motion.v,
                 "multiplier": motion.multiplier,
-                "offset": _offset(model, motion.joint.name),
+                "offset": motion.offset,
                 "mimic": motion.joint.mimic is not None,
             }
             for motion in motions
@@ -144,17 +144,6 @@ def _angles(model: Model) -> list[bool]:
             elif motion.joint.type == "planar":
                 angles[motion.q + 2] = True
     return angles
-
-
-def _offset(model: Model, name: str) -> float:
-    """The value of a joint where its coordinate is zero; it is in the home poses, and the panel shows it."""
-    joints = {joint.name: joint for joint in model.robot.description.joints}
-    joint, multiplier, offset = joints[name], 1.0, 0.0
-    while joint.mimic is not None:
-        offset += multiplier * joint.mimic.offset
-        multiplier *= joint.mimic.multiplier
-        joint = joints[joint.mimic.joint]
-    return offset
 
 
 def _body(body: Body) -> Json:

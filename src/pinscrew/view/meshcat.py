@@ -16,13 +16,14 @@ from typing import Any, Final
 
 import numpy as np
 
+from pinscrew import files
 from pinscrew.errors import InputError
 from pinscrew.robot import Robot
 from pinscrew.typing import KINDS, ArrayLike, FloatArray, KindLike
 from pinscrew.view import html, png
 from pinscrew.view.document import DEFAULT_DRAW, Animation, State, document
 from pinscrew.view.model import Model
-from pinscrew.view.prepare import begin, launch, prepare, vector, write
+from pinscrew.view.prepare import begin, launch, prepare, vector
 from pinscrew.view.server import HOST, Server
 from pinscrew.view.shapes import GROUPS, Group
 
@@ -143,7 +144,7 @@ class View:
         Raises:
             InputError: if the file can't be written.
         """
-        write(Path(path), self.html().encode("utf-8"))
+        files.write(Path(path), self.html().encode("utf-8"))
 
     def save_png(self, path: str | Path, width: int = 1000, height: int = 750) -> None:
         """Write a picture of the robot as it is now, from the usual place of the camera.
@@ -152,7 +153,7 @@ class View:
             ViewError: if there is no browser to make it.
             InputError: if the file can't be written.
         """
-        write(Path(path), png.picture(self._page(live=False, picture=(width, height)), width, height))
+        files.write(Path(path), png.picture(self._page(live=False, picture=(width, height)), width, height))
 
     def close(self) -> None:
         """Stop serving; again does nothing. A page that is open works on alone."""

@@ -131,12 +131,7 @@ def samples(robot: Robot, count: int, size: float, seed: int = 0) -> FloatArray:
     """
     rng = np.random.default_rng(seed)
     limits = robot.limits.copy()
-    reach = np.full(robot.nq, size)
-    for motion in robot.mechanism.motions:
-        if motion.joint.type in ("revolute", "continuous"):
-            reach[motion.q] = np.pi
-        elif motion.joint.type == "planar":
-            reach[motion.q + 2] = np.pi
+    reach = np.where(robot.mechanism.coordinates.slides, size, np.pi)
     limits[:, 0] = np.where(np.isfinite(limits[:, 0]), limits[:, 0], -reach)
     limits[:, 1] = np.where(np.isfinite(limits[:, 1]), limits[:, 1], reach)
     q: FloatArray = rng.uniform(limits[:, 0], limits[:, 1], (count, robot.nq))

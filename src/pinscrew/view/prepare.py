@@ -12,8 +12,8 @@ import numpy as np
 
 from pinscrew.description import visuals
 from pinscrew.description.packages import Packages
-from pinscrew.engines.base import quaternion_starts
 from pinscrew.errors import InputError
+from pinscrew.manifold import quaternion_starts
 from pinscrew.robot import Robot
 from pinscrew.typing import ArrayLike, FloatArray, KindLike, jacobian_kind
 from pinscrew.view import html, mesh_files, png, scene
@@ -21,7 +21,7 @@ from pinscrew.view.document import DEFAULT_DRAW, State, document
 from pinscrew.view.model import Model
 from pinscrew.view.shapes import GROUPS, Group
 
-__all__ = ["begin", "launch", "page", "picture", "prepare", "vector", "write"]
+__all__ = ["begin", "launch", "page", "picture", "prepare", "vector"]
 
 
 def prepare(
@@ -78,19 +78,6 @@ def launch(url: str) -> bool:
     windows = sys.platform in ("darwin", "win32") or any(os.environ.get(n) for n in ("DISPLAY", "WAYLAND_DISPLAY"))
     # Without a display, Python would start a browser for terminals.
     return bool(windows or os.environ.get("BROWSER")) and webbrowser.open(url)
-
-
-def write(path: Path, data: bytes) -> None:
-    """Write a file.
-
-    Raises:
-        InputError: if it can't be written.
-    """
-    try:
-        path.write_bytes(data)
-    except OSError as error:
-        what = f"can't be written ({error.strerror or error})"
-        raise InputError("unwritable", what, where=str(path)) from None
 
 
 def vector(values: ArrayLike | None, robot: Robot, symbol: str) -> FloatArray:

@@ -122,4 +122,4 @@ def _read(path: Path) -> tuple[Arrays, str]:
             archive = np.load(stream, allow_pickle=False)
             return (dict(archive), "") if isinstance(archive, np.lib.npyio.NpzFile) else ({}, "it is one array")
         except _BROKEN as error:
-            return {}, str(error) or type(error).__name__
+            return {}, str(error).partition(". ")[0] or type(error).__name__  # numpy goes on about pickles

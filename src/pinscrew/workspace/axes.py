@@ -15,7 +15,7 @@ from pinscrew.errors import InputError, MissingExtraError, UnknownNameError
 from pinscrew.robot import Robot
 from pinscrew.typing import FloatArray
 
-__all__ = ["Axis", "Ranges", "Steps", "axes", "drawn", "grid_counts", "grid_points", "sobol", "spread"]
+__all__ = ["Axis", "Ranges", "Steps", "axes", "grid_counts", "grid_points", "sobol", "spread"]
 
 Ranges: TypeAlias = Mapping[str, tuple[float, float]]
 """Lower and upper end by coordinate, rad or m."""
@@ -64,8 +64,7 @@ def axes(robot: Robot, frame: str, ranges: Ranges | None = None) -> tuple[Axis, 
         if name not in robot.coordinate_names:
             known = robot.coordinate_names
             raise UnknownNameError("unknown-coordinate", "coordinate", name, known, where=robot.name)
-    moving = _moving(robot, frame)
-    found = tuple(_axis(robot, index, angle, given) for index, angle in sorted(moving.items()))
+    found = tuple(_axis(robot, index, given) for index in _moving(robot, frame))
     idle = sorted(set(given) - {axis.name for axis in found})
     if idle:
         what = f"{idle[0]!r} does not move the frame {frame!r}"
@@ -73,26 +72,22 @@ def axes(robot: Robot, frame: str, ranges: Ranges | None = None) -> tuple[Axis, 
     return found
 
 
-def _moving(robot: Robot, frame: str) -> dict[int, bool]:
-    """Indices in ``q`` of the coordinates that move a frame, and whether each is an angle."""
-    masters = {m.q: m.joint.type for m in robot.mechanism.motions if m.joint.mimic is None}
-    moving: dict[int, bool] = {}
+def _moving(robot: Robot, frame: str) -> list[int]:
+    """Indices in ``q`` of the coordinates that move a frame, in order."""
+    moving: set[int] = set()
     for index in robot.motions_above(frame):
         motion = robot.mechanism.motions[index]
         if motion.joint.type == "floating":
             what = f"the floating joint {motion.joint.name!r} moves the frame {frame!r}, and poses have no range"
             raise InputError("floating", what, where=robot.name, remedy="sweep the robot without its floating base")
-        if motion.joint.type == "planar":
-            moving.update({motion.q: False, motion.q + 1: False, motion.q + 2: True})
-        else:
-            moving[motion.q] = masters[motion.q] != "prismatic"
+        moving.update(range(robot.nq)[motion.coordinates])
     if not moving:
         raise InputError("nothing-moves", f"no joint moves the frame {frame!r}", where=robot.name)
-    return moving
+    return sorted(moving)
 
 
-def _axis(robot: Robot, index: int, angle: bool, given: Ranges) -> Axis:
-    name = robot.coordinate_names[index]
+def _axis(robot: Robot, index: int, given: Ranges) -> Axis:
+    name, angle = robot.coordinate_names[index], not robot.mechanism.coordinates.slides[index]
     try:
         lower, upper = map(float, given.get(name, robot.limits[index]))
     except (TypeError, ValueError):
@@ -107,19 +102,6 @@ def _axis(robot: Robot, index: int, angle: bool, given: Ranges) -> Axis:
         what = f"the range of {name!r} is reversed: {lower:g} to {upper:g}"
         raise InputError("range", what, where=robot.name, remedy="give the lower end first")
     return Axis(name, index, lower, upper, angle)
-
-
-def drawn(samples: float, seed: float) -> tuple[int, int]:
-    """A number of samples and their seed, checked; 1e7 is a number of samples too.
-
-    Raises:
-        InputError: if there are none, or one is no whole number or negative.
-    """
-    if not (samples >= 1 and samples < math.inf and samples == int(samples)):
-        raise InputError("samples", f"samples={samples}", remedy="give a whole number, 1 or more")
-    if not (seed >= 0 and seed < math.inf and seed == int(seed)):
-        raise InputError("seed", f"seed={seed}", remedy="give a whole number, 0 or more")
-    return int(samples), int(seed)
 
 
 def grid_counts(axes: Sequence[Axis], steps: Steps) -> list[int]:

@@ -13,6 +13,8 @@ from typing import Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
+from pinscrew.engines.batch import Batch
+from pinscrew.typing import FloatArray
 from pinscrew.workspace.axes import Axis, spread
 from pinscrew.workspace.measures import manipulability
 from pinscrew.workspace.voxels import Voxels, direction_bits, voxel_keys
@@ -51,14 +53,19 @@ class Task:
         rng = np.random.default_rng([self.seed, block])
         q = np.tile(self.engine.robot.neutral, (count, 1))
         q[:, [axis.index for axis in self.axes]] = spread(self.axes, rng.random((count, len(self.axes))))
-        poses, J = self.engine.fk_jacobian(q, self.frame, "hybrid")
+        if isinstance(self.engine, Batch):  # which has poses and Jacobians made and reduced within the cache
+            return Voxels.reduced(self.engine.reduce(q, self.frame, "hybrid", self._and_voxels, []))
+        return Voxels.reduced(self._and_voxels([], slice(0, count), *self.engine.fk_jacobian(q, self.frame, "hybrid")))
+
+    def _and_voxels(self, found: list[Voxels], _: slice, poses: FloatArray, J: FloatArray) -> list[Voxels]:
+        """The voxels found before, and those of some configurations."""
         samples = Voxels(
             voxel_keys(poses[:, :3, 3], self.voxel),
-            np.ones(count, np.int64),
+            np.ones(len(poses), np.int64),
             manipulability(J[:, :3], self.rank),
             direction_bits(poses[:, :3, 2]),
         )
-        return Voxels.reduced([samples])
+        return [*found, samples]
 
 
 def block_count(samples: int) -> int:

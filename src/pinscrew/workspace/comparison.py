@@ -9,7 +9,7 @@ from pinscrew.lie import se3
 from pinscrew.robot import Robot
 from pinscrew.typing import FloatArray
 
-__all__ = ["from_reference"]
+__all__ = ["from_reference", "other_reference"]
 
 
 def from_reference(robot: Robot, q: FloatArray, frame: str, reference: str) -> FloatArray:
@@ -42,3 +42,16 @@ def from_reference(robot: Robot, q: FloatArray, frame: str, reference: str) -> F
         T_reference_frame = se3.exp(screws[:, motion.v] * q[:, motion.q, None]) @ T_reference_frame
     carried: FloatArray = robot.home(reference) @ T_reference_frame
     return carried
+
+
+def other_reference(robot: Robot) -> str:
+    """The frame that can be frame 0 instead of the base: the only other one that is fixed to it.
+
+    Raises:
+        InputError: if there are none or several.
+    """
+    fixed = [name for name in robot.frame_names[1:] if robot.mechanism.motion_above[name] < 0]
+    if len(fixed) != 1:
+        what = f"{len(fixed)} frames but the base are fixed to it: {', '.join(fixed) or 'none'}"
+        raise InputError("frame0", what, where=robot.name, remedy="name another choice of frame 0")
+    return fixed[0]

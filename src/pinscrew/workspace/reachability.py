@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import pickle
 import time
 from collections.abc import Callable, Generator
@@ -16,14 +15,15 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
 from pinscrew.engines.batch import for_many
 from pinscrew.errors import EngineError, InputError
+from pinscrew.processes import job_count, process_pool
 from pinscrew.robot import Robot
 from pinscrew.workspace import archive
-from pinscrew.workspace.axes import Ranges, axes, drawn
+from pinscrew.workspace.axes import Ranges, axes
 from pinscrew.workspace.blocks import BLOCK, Task, block_count, run_pickled
-from pinscrew.workspace.executors import process_pool
 from pinscrew.workspace.measures import generic_ranks
 from pinscrew.workspace.reachability_map import Done, ReachabilityMap, read_map, unfinished, write_map
 from pinscrew.workspace.voxels import Gathering, Voxels
@@ -87,13 +87,11 @@ def reachability(
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
     """
     frame = robot.frame(frame)
-    samples, seed = drawn(samples, seed)
+    samples, seed, jobs = whole("samples", samples, 1), whole("seed", seed, 0), job_count(jobs)
     if samples > MOST:
         raise InputError("samples", f"samples={samples}", remedy=f"give at most {MOST}")
     if not 0.0 < voxel < math.inf:
         raise InputError("voxel", f"voxel={voxel}", remedy="give an edge in m, such as 0.05")
-    if jobs is not None and jobs < 1:
-        raise InputError("jobs", f"jobs={jobs}", remedy="give 1 or more")
     found = axes(robot, frame, ranges)
     engine = engine or for_many(robot, threads=1)
     rank, _ = generic_ranks(engine, frame, found)
@@ -104,7 +102,7 @@ def reachability(
     task = Task(engine, frame, found, rank, samples, seed, voxel)
     record = _Record(file, metadata, Gathering(voxels), done)
     advance = advance or (lambda _: None)
-    given = process_pool(jobs) if executor is None else nullcontext((executor, jobs or os.cpu_count() or 1))
+    given = process_pool(jobs) if executor is None else nullcontext((executor, jobs))
     try:
         advance(int(done.sum()))
         left = np.flatnonzero(~done)

@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 
+from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
 from pinscrew.engines.batch import for_many
 from pinscrew.errors import InputError
@@ -17,7 +18,7 @@ from pinscrew.memory import free_bytes
 from pinscrew.robot import Robot
 from pinscrew.typing import FloatArray, KindLike, jacobian_kind
 from pinscrew.workspace import archive
-from pinscrew.workspace.axes import Ranges, Steps, axes, drawn, grid_counts, grid_points, sobol
+from pinscrew.workspace.axes import Ranges, Steps, axes, grid_counts, grid_points, sobol
 from pinscrew.workspace.measures import Measures, generic_ranks
 
 __all__ = ["SAMPLES", "STEP", "Sweep", "sweep"]
@@ -134,7 +135,7 @@ def sweep(
     if grid is None and samples is None:
         small = len(found) <= 2 and all(axis.angle for axis in found)
         grid, samples = (STEP, None) if small else (None, SAMPLES)
-    count, seed = drawn(1 if samples is None else samples, seed)
+    count, seed = whole("samples", 1 if samples is None else samples, 1), whole("seed", seed, 0)
     points = None if grid is None else grid_counts(found, grid)
     count = count if points is None else math.prod(points)
     engine = engine or for_many(robot)
@@ -173,4 +174,4 @@ def _fits(robot: Robot, count: int, numbers: int) -> None:
         gigabytes = Decimal(needed) / 2**30  # too many points for a float, maybe
         what = f"{Decimal(count):.4g} configurations need {gigabytes:.4g} GiB of memory, and "
         remedy = "take a larger step or fewer samples, or make a reachability map, which keeps voxels only"
-        raise InputError("sweep-size", f"{what}{memory / 2**30:.3g} GiB are free", where=robot.name, remedy=remedy)
+        raise InputError("memory", f"{what}{memory / 2**30:.3g} GiB are free", where=robot.name, remedy=remedy)

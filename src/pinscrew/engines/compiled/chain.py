@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -46,6 +46,11 @@ class Question:
     poses: bool = False
     kind: JacobianKind | None = None
     part: Part | None = None
+
+    def shapes(self, nv: int) -> list[tuple[int, ...]]:
+        """The shapes of the parts of the answer about one frame, of those that are asked for."""
+        parts: list[tuple[tuple[int, ...], Any]] = [((4, 4), self.poses), ((6, nv), self.kind), ((), self.part)]
+        return [shape for shape, asked in parts if asked]
 
 
 @dataclass(frozen=True, slots=True)

@@ -79,19 +79,25 @@ class Kernel:
         """
         whole = len(q) // CHUNK * CHUNK
         stream = sum(array.nbytes for array in results) >= STREAMED
-        rows = [(array.ctypes.data, array.strides[0]) for array in (q, *results)]
+        # With the arrays themselves: whoever works holds them, so that they can't be freed under a helper's hands.
+        rows = [(array, array.ctypes.data, array.strides[0]) for array in (q, *results)]
         starts = iter(range(0, whole, SLICE))
         bad = []
 
         def work() -> None:
             for start in starts:  # each start goes to one thread only
-                source, *targets = (address + start * stride for address, stride in rows)
+                source, *targets = (address + start * stride for _, address, stride in rows)
                 bad.append(self._compiled.call(source, min(SLICE, whole - start), stream, *targets))
 
         helpers = [_pool().submit(work) for _ in range(min(threads, whole // SLICE) - 1)]
-        work()
-        for helper in helpers:
-            helper.result()
+        try:
+            work()
+        finally:
+            for _ in starts:  # what an interrupt left undone is not to be done by the helpers
+                pass
+            for helper in helpers:
+                if not helper.cancel():  # one that has not begun finds nothing to do
+                    helper.result()
         return self._rest(q[whole:], [array[whole:] for array in results]) and not any(bad)
 
     def _rest(self, q: NDArray[Any], results: Sequence[NDArray[Any]]) -> bool:
@@ -155,7 +161,7 @@ class _Writer:
             kept = self._at(scratch, self.build.sub(integer(self.in_line), offset))
             with self._loop(offset, 1) as i:
                 self._copy(self.target, self._at(kept, i), self._at(end, i))
-        self.build.fence("seq_cst")
+        self.build.fence("seq_cst")  # non-temporal stores know no other order
         reduced = intrinsic(self.build, f"vector.reduce.or.v{self.width}i1", ir.IntType(1), [bad_type])
         any_bad = self.build.call(reduced, [self.build.load(bad, typ=bad_type)])
         self.build.ret(self.build.zext(any_bad, integer))

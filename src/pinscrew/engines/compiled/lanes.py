@@ -8,6 +8,7 @@ no other liberty is taken with floating-point arithmetic, since the range reduct
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -95,12 +96,12 @@ class Lanes:
         return self._make(self.build.fneg(self.value, flags=_FLAGS))
 
     def reciprocal(self, other: Lanes | float) -> Lanes | float:
-        """1 / other, or 0 where it is not positive."""
+        """1 / other, or 0 where it is below the normal numbers, whose reciprocals are all finite."""
         if not isinstance(other, Lanes):
-            return 1.0 / other if other > 0.0 else 0.0
+            return 1.0 / other if other >= sys.float_info.min else 0.0
         inverse = self.build.fdiv(self.constant(1.0), other.value, flags=_FLAGS)
-        positive = self.build.fcmp_ordered(">", other.value, self.constant(0.0))
-        return self._make(self.build.select(positive, inverse, self.constant(0.0)))
+        normal = self.build.fcmp_ordered(">=", other.value, self.constant(sys.float_info.min))
+        return self._make(self.build.select(normal, inverse, self.constant(0.0)))
 
     def root(self) -> Lanes:
         """The square root."""

@@ -1,8 +1,8 @@
 """From a module of instructions to a function to call: compiled for this processor, and kept on disk.
 
-What was compiled is found again by the instructions themselves, the processor and the compiler's version, so a
-later process loads it in milliseconds. Files appear whole (written aside, then renamed), so processes that compile
-the same at once do no harm; a cache that can't be read or written only costs time.
+What was compiled is found again by the instructions themselves, the system, the processor and the compiler's
+version, so a later process loads it in milliseconds. Files appear whole (written aside, then renamed), so processes
+that compile the same at once do no harm; a cache that can't be read or written only costs time.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ class Compiled:
         """
         text = str(module)
         cpu, features = processor()
-        key = hashlib.sha256("\0".join((text, cpu, features, llvmlite.__version__)).encode()).hexdigest()
+        triple = llvm.get_default_triple()
+        key = hashlib.sha256("\0".join((text, triple, cpu, features, llvmlite.__version__)).encode()).hexdigest()
         llvm.initialize_native_target()
         llvm.initialize_native_asmprinter()
         parsed = llvm.parse_assembly(text)

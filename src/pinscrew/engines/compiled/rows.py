@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Sequence
 from typing import Final
@@ -48,8 +49,7 @@ def compile_kernel(chains: Sequence[Chain], question: Question, nq: int, nv: int
             answers.append(_about(chain, question, moves, nv, one))
         return [[number for part in parts for number in part] for parts in zip(*answers, strict=True)], good
 
-    sizes = (16 if question.poses else 0, 6 * nv if question.kind else 0, 1 if question.part else 0)
-    lengths = [size * len(chains) for size in sizes if size]
+    lengths = [math.prod(shape) * len(chains) for shape in question.shapes(nv)]
     return Kernel(nq, rows, lengths, single)
 
 

@@ -154,7 +154,7 @@
       return { least: values[rank - 1], greatest: values[0] };
     }
 
-    // The nearest singular configuration, by Newton's steps along the gradient of the least singular value; null
+    // A singular configuration not far away (limits are not looked at), by Newton's steps along the gradient of the least singular value; null
     // if there is none near, or none was found within the milliseconds given.
     singularityNear(frame, generic, q, milliseconds = 50) {
       const deadline = performance.now() + milliseconds;

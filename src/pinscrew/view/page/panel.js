@@ -221,7 +221,7 @@
       this.warn(margin, generic, null, robot);
     }
 
-    // What is near: `found` is the nearest singular configuration, if one is known.
+    // What is near: `found` is a singular configuration not far away, if one is known.
     warn({ least, greatest }, { rank, rows }, found) {
       const text = byId("warning"), of = rows === 6 ? "of the twist" : "of the position";
       const ratio = greatest > 0 ? least / greatest : 0;
@@ -236,7 +236,7 @@
         const order = found.change.map((_, i) => i).sort((a, b) => Math.abs(found.change[b]) - Math.abs(found.change[a]));
         const main = order.filter((i) => Math.abs(found.change[i]) > 0.25 * Math.abs(found.change[order[0]])).slice(0, 2);
         const where = main.map((i) => `${names[i]} = ${fixed(found.q[i], 3)}`).join(", ");
-        words = `${ratio < 0.05 ? "near a singularity" : "nearest singularity"} ${of}: ${where}`;
+        words = `${ratio < 0.05 ? "near a singularity" : "a singularity"} ${of}: ${where}`;
         level = ratio < 0.05 ? "near" : "";
       } else if (ratio < 0.05) {
         words = `near a singularity ${of}`;
