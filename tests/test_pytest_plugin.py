@@ -13,6 +13,7 @@ import pinscrew as ps
 import urdfs
 from pinscrew import lockfile
 from pinscrew.errors import EngineError
+from pinscrew.pytest_plugin import subject
 from pinscrew.verification import run as verification
 
 ARM = urdfs.robot(
@@ -290,7 +291,7 @@ def test_arguments_make_robots(pytester: pytest.Pytester, monkeypatch: pytest.Mo
         return verify(robot, samples, **options)
 
     verify = verification.verify
-    monkeypatch.setattr(verification, "verify", remember)
+    monkeypatch.setattr(subject, "verify", remember)
     pytester.runpytest_inprocess("--pinscrew", *OPTIONS[2:]).assert_outcomes(passed=len(names))
     assert asked == [(0.5, 1, None), (0.6, 1, ("tool",))]
 
