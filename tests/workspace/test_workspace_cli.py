@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -145,5 +146,7 @@ def test_no_scheduler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             pass
         assert "event loop" not in str(caught.value)
 
-    asyncio.run(in_a_notebook())
+    # In a thread, since a browser of another test may keep a loop running in this one.
+    with ThreadPoolExecutor(1) as elsewhere:
+        elsewhere.submit(lambda: asyncio.run(in_a_notebook())).result()
     assert list(tmp_path.iterdir()) == []
