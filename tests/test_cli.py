@@ -196,3 +196,8 @@ def test_a_closed_pipe_is_no_error() -> None:
     done = subprocess.run(["sh", "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("robot")
     assert done.stderr == ""
+
+
+def test_a_misspelt_command() -> None:
+    assert "there is no command 'verfy'; did you mean 'verify'?" in refused("verfy")
+    assert "No such command 'nonsense'" in refused("nonsense")

@@ -106,8 +106,8 @@ def _is_number(node: ast.expr) -> bool:
 
 def _value(node: ast.expr, variables: Mapping[str, Any]) -> Any:
     """The value of what `_check` let pass."""
-    if isinstance(node, ast.Constant):
-        return float(node.value)  # type: ignore[arg-type]
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+        return float(node.value)
     if isinstance(node, ast.Name):
         return variables[node.id] if node.id in variables else _CONSTANTS[node.id]
     if isinstance(node, ast.UnaryOp):

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 from pinscrew.counts import whole
 
-__all__ = ["job_count", "process_pool"]
+__all__ = ["cores", "job_count", "process_pool"]
 
 
 def job_count(jobs: int | None = None) -> int:
@@ -21,8 +21,11 @@ def job_count(jobs: int | None = None) -> int:
     Raises:
         InputError: if it is not positive.
     """
-    if jobs is not None:
-        return whole("jobs", jobs, 1)
+    return cores() if jobs is None else whole("jobs", jobs, 1)
+
+
+def cores() -> int:
+    """How many cores this process may use; where the system does not say, all that there are."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

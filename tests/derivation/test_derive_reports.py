@@ -13,24 +13,11 @@ from typing import Any
 import pytest
 
 import pinscrew as ps
+from chromium import BROWSER, FLAGS
 from pinscrew.derivation import reports
 from pinscrew.derivation.blocks import Formula, Report
 from pinscrew.derivation.sections import PARTS
 from pinscrew.errors import InputError
-
-ARGUMENTS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-]
-CHROMIUM = Path("/usr/bin/chromium")
 
 
 @cache
@@ -118,14 +105,14 @@ SEEN = """() => {
 }"""
 
 
-@pytest.mark.skipif(not CHROMIUM.exists(), reason="there is no Chromium")
+@pytest.mark.skipif(not Path(BROWSER).exists(), reason="there is no Chromium")
 @pytest.mark.parametrize(("robot", "convention"), [("spherical_rrp", "mls"), ("lead_screw", "lynch-park")])
 def test_html_in_a_browser_without_a_network(robot: str, convention: str, tmp_path: Path) -> None:
     playwright = pytest.importorskip("playwright.sync_api")
     file = tmp_path / "report.html"
     file.write_text(reports.write(make(robot, convention), "html"), encoding="utf-8")
     with playwright.sync_playwright() as p:
-        browser = p.chromium.launch(executable_path=str(CHROMIUM), args=ARGUMENTS)
+        browser = p.chromium.launch(executable_path=BROWSER, args=list(FLAGS))
         context = browser.new_context(offline=True, viewport={"width": 1100, "height": 900})
         page = context.new_page()
         errors: list[str] = []

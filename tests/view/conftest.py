@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from view_support import BROWSER, FLAGS, missing_browser, wait_until
+from view_support import missing_browser, wait_until
+
+from chromium import BROWSER, FLAGS
 
 
 @pytest.fixture(scope="session")

@@ -14,8 +14,8 @@ from pinscrew.words import one_line
 __all__ = ["SCHEMA", "summary", "to_json", "to_markdown", "to_text"]
 
 SCHEMA: Final = "pinscrew.diff/1"
-ROUNDING: Final = 1e-13
-"""A displacement (m or rad) of tips that is told as none."""
+ROUNDING: Final = 1e-11
+"""A displacement (m or rad) of tips that is told as none: what is left of the 12 digits in a lock, say."""
 
 
 def summary(changes: Changes) -> str:

@@ -271,9 +271,11 @@ class Batch(PoE):
             block, _ = self._coordinates(q[rows])
             for i, name in enumerate(names):
                 parts: list[FloatArray] = []
-                if question.poses:
+                if question.poses and question.kind is not None:
+                    parts += super()._poses_and_jacobians(block, name, question.kind)
+                elif question.poses:
                     parts.append(super()._poses(block, name))
-                if question.kind is not None:
+                elif question.kind is not None:
                     parts.append(super()._jacobians(block, name, question.kind))
                 if question.part is not None:
                     J = super()._jacobians(block, name, "body")

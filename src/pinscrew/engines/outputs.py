@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Sequence
 from itertools import combinations
 from typing import Any, Final, TypeAlias
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from pinscrew.errors import InputError
 from pinscrew.memory import free_bytes
+from pinscrew.processes import cores
 
 __all__ = ["Results", "outputs", "thread_count"]
 
@@ -70,9 +70,9 @@ def thread_count(threads: int | None) -> int:
     Raises:
         InputError: if it is no whole number, below 1 or more than there are.
     """
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    most = cores()
     if threads is None:
-        return cores
-    if threads not in range(1, cores + 1):
-        raise InputError("threads", f"threads={threads!r}", remedy=f"give 1 to {cores}, the cores of this machine")
+        return most
+    if threads not in range(1, most + 1):
+        raise InputError("threads", f"threads={threads!r}", remedy=f"give 1 to {most}, the cores of this machine")
     return int(threads)
