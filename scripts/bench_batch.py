@@ -95,7 +95,7 @@ def contenders(robot: ps.Robot, frames: tuple[str, ...], count: int, threads: in
         yield Contender("pytorch_kinematics", torch_loop(robot, frames, few), len(few))
     for name in ("mujoco", "roboticstoolbox"):
         if importlib.util.find_spec(name):
-            from pinscrew.engines.witness import witness
+            from pinscrew.witnesses.witness import witness
 
             engine = witness(name, robot)
             yield Contender(engine.name, lambda e=engine: [e.fk_jacobian(few[:500], f, "body") for f in frames], 500)  # type: ignore[misc]

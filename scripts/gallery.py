@@ -12,8 +12,8 @@ import sys
 from pathlib import Path
 
 import pinscrew as ps
-from pinscrew import files
 from pinscrew.description.catalogue import bundled
+from pinscrew.ground import files
 from pinscrew.view import figures, plot_workspace, prepare
 from pinscrew.view.shapes import Group
 

@@ -17,8 +17,8 @@ from scipy.spatial.transform import Rotation
 
 import closed_forms as cf
 import pinscrew as ps
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.lie import se3
-from pinscrew.typing import KINDS, FloatArray
 
 TOLERANCE = 1e-13
 """Times max(1, size) of a configuration's matrix: 450 ε for some 30 roundings, and angles up to 40 rad."""

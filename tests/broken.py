@@ -11,7 +11,7 @@ import numpy as np
 import pinscrew as ps
 import urdfs
 from pinscrew.engines.base import Answers, Engine, JointView
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 TEXT = urdfs.robot(
     urdfs.joint("j1", "revolute", "base", "l1", xyz="0 0 0.3"),

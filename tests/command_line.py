@@ -13,7 +13,7 @@ from pathlib import Path
 from unittest import mock
 
 from pinscrew.cli import main
-from pinscrew.errors import PinscrewWarning
+from pinscrew.ground.errors import PinscrewWarning
 
 
 @dataclass(frozen=True)

@@ -1,76 +1,40 @@
-"""What modules may import, by layers: read off their sources, for `test_layers`."""
+"""What modules may import, by floors: read off their sources, for `test_layers`."""
 
 from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 SOURCE = Path(__file__).resolve().parents[1] / "src"
 
-LAYERS = {
-    "errors": 0,
-    "words": 0,
-    "memory": 0,
-    "counts": 0,
-    "processes": 0,
-    "error_codes": 0,
-    "expressions": 0,
-    "files": 0,
-    "typing": 0,
-    "lie": 0,
-    "screw": 0,
-    "description": 1,
-    "mechanism": 2,
-    "robot": 2,
-    "loading": 2,
-    "manifold": 2,
-    "engines": 3,
-    "verification": 4,
-    "changes": 4,
-    "derivation": 4,
-    "findings": 4,
-    "lockfile": 4,
-    "motion": 4,
-    "workspace": 4,
-    "view": 5,
-    "cli": 6,
-    "pytest_plugin": 6,
-    "__main__": 6,
-    "": 6,  # the package itself, which names what it offers and loads it when it is used
-}
-"""The layer of each module or package directly below ``pinscrew``."""
-
-WITHIN_LAYER: dict[str, set[str]] = {
-    "errors": {"words"},
-    "expressions": {"errors"},
-    "counts": {"errors"},
-    "processes": {"counts"},
-    "files": {"errors"},
-    "typing": {"errors"},
-    "lie": {"errors", "typing"},
-    "screw": {"errors", "typing", "lie"},
-    "robot": {"mechanism"},
-    "loading": {"robot"},
-    "manifold": {"mechanism", "robot"},
-    "lockfile": {"changes", "findings"},
-    "changes": {"findings", "verification"},
-    "verification": {"findings"},
-    "workspace": {"lockfile"},
-    "cli": {""},
-    "__main__": {"cli"},
-}
-"""What of its own layer, beside itself, a module may import."""
+FLOORS = (
+    {"ground"},
+    {"errors", "lie", "description"},
+    {"robot", "reporting"},
+    {"engines", "engines.compiled"},
+    {"witnesses"},
+    {"verification", "derivation"},
+    {"changes"},
+    {"lockfile", "motion"},
+    {"workspace"},
+    {"view"},
+    {""},  # the package itself, which names what it offers and loads it when it is used
+    {"cli", "pytest_plugin"},
+    {"__main__"},
+)
+"""The modules and packages below ``pinscrew``, from the ground up. Each imports only from itself and from below it."""
 
 OUTSIDE = {
     "numpy": "",
     "yourdfpy": "description",
     "xacro": "description._xacro_worker",
     "pinocchio": "engines.pinocchio",
-    "mujoco": "engines.mujoco",
-    "roboticstoolbox": "engines.roboticstoolbox",
+    "mujoco": "witnesses.mujoco",
+    "roboticstoolbox": "witnesses.roboticstoolbox",
     "llvmlite": "engines.compiled",
     "sympy": "derivation",
     "latex2mathml": "derivation",
@@ -89,14 +53,20 @@ OUTSIDE = {
 }
 """Where an outside package may be imported: that module, or in that package."""
 
+How = Literal["at once", "later", "by name", "for types"]
+
 
 @dataclass(frozen=True)
 class Import:
-    """An import: of what, and whether it is done as soon as the module is loaded."""
+    """An import: of what, and how.
+
+    ``"at once"`` is done when the module is loaded, ``"later"`` in a function, ``"by name"`` by `import_module` of a
+    name that stands in the source as a text (in a table, say), ``"for types"`` never while the program runs.
+    """
 
     target: str
     line: int
-    at_once: bool
+    how: How
 
 
 def modules() -> dict[str, str]:
@@ -114,63 +84,86 @@ MODULES = modules()
 def imports(source: str, known: Mapping[str, str] = MODULES) -> Iterator[Import]:
     """All imports of a source, those of names in a package as of the package's module where there is one."""
 
-    def visit(node: ast.AST, at_once: bool) -> Iterator[Import]:
+    def visit(node: ast.AST, how: How) -> Iterator[Import]:
         if isinstance(node, ast.Import):
-            yield from (Import(alias.name, node.lineno, at_once) for alias in node.names)
+            yield from (Import(alias.name, node.lineno, how) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             package = "." * node.level + (node.module or "")
             for alias in node.names:
                 module = f"{package}.{alias.name}"
-                yield Import(module if inside(module) in known else package, node.lineno, at_once)
+                yield Import(module if inside(module) in known else package, node.lineno, how)
+        elif isinstance(node, ast.Constant) and inside(node.value) and inside(node.value) in known:
+            yield Import(str(node.value), node.lineno, "by name")  # the name of a module, in whatever table it stands
+        elif (name := loaded_by_name(node)) is not None and inside(name) not in known:
+            yield Import(name, node.lineno, "by name")
+        inner = how
+        if how == "at once" and isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            inner = "later"
+        elif for_types(node):
+            inner = "for types"
         for child in ast.iter_child_nodes(node):
-            later = isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) or for_types(node)
-            yield from visit(child, at_once and not later)
+            yield from visit(child, inner)
 
-    yield from visit(ast.parse(source), True)
+    yield from visit(ast.parse(source), "at once")
+
+
+def loaded_by_name(node: ast.AST) -> str | None:
+    """What `import_module` or ``__import__`` is given, where that is a text."""
+    if not isinstance(node, ast.Call) or not node.args:
+        return None
+    called = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
+    given = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
+    return given if called in ("import_module", "__import__") and isinstance(given, str) else None
 
 
 def for_types(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
 
 
-def inside(target: str) -> str | None:
+def inside(target: object) -> str | None:
     """The name below pinscrew, or None for what is outside."""
     if target == "pinscrew":
         return ""
-    return target.removeprefix("pinscrew.") if target.startswith("pinscrew.") else None
+    return target.removeprefix("pinscrew.") if isinstance(target, str) and target.startswith("pinscrew.") else None
 
 
 def unit(module: str) -> str:
-    """The module or package directly below pinscrew that a module is in."""
-    return module.split(".", maxsplit=1)[0]
+    """The room that a module is in: the longest of its packages that has a floor of its own."""
+    named = {name for floor in FLOORS for name in floor}
+    parts = module.split(".")
+    return next((p for n in range(len(parts), 0, -1) if (p := ".".join(parts[:n])) in named), parts[0])
+
+
+def floor(module: str) -> int | None:
+    return next((number for number, rooms in enumerate(FLOORS) if unit(module) in rooms), None)
 
 
 def violations(module: str, source: str) -> list[str]:
     """What a module imports and must not."""
     found = []
-    for one in imports(source):
-        place = f"{module}:{one.line} imports {one.target}"
-        name = inside(one.target)
-        if one.target.startswith("."):
+    for each in imports(source):
+        place = f"{module}:{each.line} imports {each.target}" + (" for types" if each.how == "for types" else "")
+        name = inside(each.target)
+        if each.target.startswith("."):
             found.append(f"{place}: write the whole name")
         elif name is None:
-            package = one.target.split(".")[0]
+            package = each.target.split(".")[0]
             home = OUTSIDE.get(package)
             if package not in sys.stdlib_module_names and (home is None or not within(module, home)):
                 found.append(f"{place}: that is for {home or 'nobody'}")
-        elif module == "":
-            if one.at_once:
-                found.append(f"{place}: the package loads nothing at once")
-        elif unit(name) not in LAYERS:
-            found.append(f"{place}: there is no such module, or it has no layer")
-        elif LAYERS[unit(name)] >= LAYERS[unit(module)] and unit(name) not in beside(unit(module)):
-            found.append(f"{place}: layer {LAYERS[unit(module)]} from layer {LAYERS[unit(name)]}")
+        elif module == "" and each.how == "at once" and unit(name) != "ground":
+            found.append(f"{place}: the package loads nothing at once")
+        elif floor(name) is None or name not in MODULES:
+            found.append(f"{place}: there is no such module, or it has no floor")
+        elif unit(name) != unit(module) and not below(name, module):
+            found.append(f"{place}: floor {floor(module)} from floor {floor(name)}")
     return found
 
 
-def beside(name: str) -> set[str]:
-    """What of its own layer something directly below pinscrew may import."""
-    return {name} | WITHIN_LAYER.get(name, set())
+def below(name: str, module: str) -> bool:
+    """Whether a module stands below another; a package's inner package may stand beside the package."""
+    lower, upper = floor(name), floor(module)
+    return lower < upper or (lower == upper and unit(name).split(".")[0] == unit(module).split(".")[0])
 
 
 def within(module: str, home: str) -> bool:
@@ -182,9 +175,9 @@ def reachable(module: str) -> set[str]:
     found: set[str] = set()
     pending = [module]
     while pending:
-        for one in imports(MODULES[pending.pop()]):
-            name = inside(one.target)
-            target = one.target.split(".")[0] if name is None else f"pinscrew.{name}"
+        for each in imports(MODULES[pending.pop()]):
+            name = inside(each.target)
+            target = each.target.split(".")[0] if name is None else f"pinscrew.{name}"
             if target not in found:
                 found.add(target)
                 if name is not None and name in MODULES:
@@ -192,10 +185,45 @@ def reachable(module: str) -> set[str]:
     return found
 
 
-def loaded_at_once(sources: Mapping[str, str]) -> dict[str, set[str]]:
-    """For each module, those of pinscrew that are loaded while it is."""
-    names = {m: {inside(one.target) for one in imports(s, sources) if one.at_once} for m, s in sources.items()}
-    return {module: {name for name in found if name in sources} for module, found in names.items()}
+EVERY_WAY: tuple[How, ...] = ("at once", "later", "by name", "for types")
+Graph = dict[str, set[str]]
+
+
+def graph(sources: Mapping[str, str], ways: Iterable[How] = EVERY_WAY) -> Graph:
+    """For each module, those of pinscrew that it imports in any of some ways."""
+    drawn = {}
+    for module, source in sources.items():
+        names = {inside(each.target) for each in imports(source, sources) if each.how in ways}
+        drawn[module] = {name for name in names if name in sources and name != module}
+    return drawn
+
+
+def circles(arrows: Graph) -> list[set[str]]:
+    """The sets of modules that import each other in a loop: strongly connected components of more than one (Tarjan)."""
+    order: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    waiting: list[str] = []
+    found: list[set[str]] = []
+
+    def visit(module: str) -> None:
+        order[module] = lowest[module] = len(order)
+        waiting.append(module)
+        for target in sorted(arrows.get(module, ())):
+            if target not in order:
+                visit(target)
+                lowest[module] = min(lowest[module], lowest[target])
+            elif target in waiting:
+                lowest[module] = min(lowest[module], order[target])
+        if lowest[module] == order[module]:
+            circle = set(waiting[waiting.index(module) :])
+            del waiting[waiting.index(module) :]
+            if len(circle) > 1:
+                found.append(circle)
+
+    for module in sorted(arrows):
+        if module not in order:
+            visit(module)
+    return found
 
 
 OURS = {"screws", "home", "homes", "twists", "T_base_child", "T_parent_joint", "axis", "motions_above", "reach"}

@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 from hypothesis import strategies as st
 
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 mpmath.mp.dps = 60
 

@@ -22,9 +22,9 @@ import bad_xacros
 import limited
 import pinscrew as ps
 from bad_inputs import Case
-from pinscrew import errors
 from pinscrew.description import expand
-from pinscrew.errors import DescriptionError, PinscrewError, PinscrewWarning
+from pinscrew.ground import errors
+from pinscrew.ground.errors import DescriptionError, PinscrewError, PinscrewWarning
 
 REFUSED = [*bad_inputs.REFUSED, *bad_xacros.REFUSED]
 

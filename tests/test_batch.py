@@ -21,12 +21,12 @@ import pytest
 import pinscrew as ps
 import urdfs
 from pinscrew.description.catalogue import bundled, example_robots
-from pinscrew.engines.batch import BLOCK
 from pinscrew.engines.compiled import chain, kernel, walk
+from pinscrew.engines.compiled.batch import BLOCK
 from pinscrew.engines.compiled.chain import Question
 from pinscrew.engines.compiled.kernel import CHUNK, SLICE
-from pinscrew.errors import InputError, UnknownNameError
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.ground.errors import InputError, UnknownNameError
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.verification.configurations import sizes
 
 TOLERANCE = 1e-13
@@ -89,7 +89,7 @@ def test_assignment_arms(name: str) -> None:
     "name",
     [pytest.param(name, marks=() if name in ("panda", "ur5_robot") else pytest.mark.slow) for name in EXAMPLES],
 )
-@pytest.mark.filterwarnings("ignore::pinscrew.errors.PinscrewWarning")
+@pytest.mark.filterwarnings("ignore::pinscrew.ground.errors.PinscrewWarning")
 def test_example_robots(name: str) -> None:
     """At the deepest frames, trees and mimic joints among them."""
     batch = make(name)
@@ -350,7 +350,7 @@ def test_an_interrupt_ends_the_helpers_too(monkeypatch: pytest.MonkeyPatch) -> N
         return right(*arguments)
 
     monkeypatch.setattr(compiled._compiled, "call", call)
-    monkeypatch.setattr("pinscrew.engines.batch.thread_count", int)
+    monkeypatch.setattr("pinscrew.engines.compiled.batch.thread_count", int)
     out = np.zeros_like(expected)
     with pytest.raises(KeyboardInterrupt):
         batch.fk(q, out=out, threads=2)
@@ -368,7 +368,7 @@ def test_questions_too_large_to_compile(monkeypatch: pytest.MonkeyPatch) -> None
     batch = ps.Batch(ps.load("planar_rrr"))
     q = sample(batch.robot, 20)
     frames = list(batch.robot.frame_names)
-    monkeypatch.setattr("pinscrew.engines.batch.MOST_NUMBERS", len(frames) * (16 + 6 * 3) - 1)
+    monkeypatch.setattr("pinscrew.engines.compiled.batch.MOST_NUMBERS", len(frames) * (16 + 6 * 3) - 1)
     T, J = batch.fk_jacobian(q, frames, "body")
     assert list(batch._kernels.values()) == [None]
     for i, frame in enumerate(frames):
@@ -414,8 +414,8 @@ def test_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
     for threads in (0, -1, 10_000, 1.5, "2"):
         with pytest.raises(InputError, match="cores of this machine"):
             batch.fk(q, threads=threads)  # type: ignore[arg-type]
-    monkeypatch.setattr("pinscrew.engines.outputs.SMALL", 0)
-    monkeypatch.setattr("pinscrew.engines.outputs.free_bytes", lambda: 10)
+    monkeypatch.setattr("pinscrew.engines.compiled.outputs.SMALL", 0)
+    monkeypatch.setattr("pinscrew.engines.compiled.outputs.free_bytes", lambda: 10)
     with pytest.raises(InputError, match="blocks") as caught:
         batch.fk(q)
     assert caught.value.code == "memory"

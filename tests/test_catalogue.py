@@ -12,7 +12,7 @@ import pytest
 import pinscrew as ps
 import urdfs
 from pinscrew.description import catalogue
-from pinscrew.errors import DescriptionError, MissingExtraError, UnknownNameError, XacroError
+from pinscrew.ground.errors import DescriptionError, MissingExtraError, UnknownNameError, XacroError
 
 ASSIGNED = {
     "spherical_rrp": "spherical_rrp.urdf.xacro",

@@ -17,7 +17,7 @@ import urdfs
 from command_line import ok, process, refused, run
 from pinscrew.cli import _COMMANDS
 from pinscrew.description.catalogue import bundled, example_robots
-from pinscrew.errors import MissingExtraError
+from pinscrew.ground.errors import MissingExtraError
 
 NAMES = [entry.name for entry in bundled()]
 FEW = ("--samples", "2")

@@ -16,7 +16,7 @@ import pytest
 import pinscrew as ps
 import urdfs
 from command_line import ok, refused, run
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 DRONE = ps.load("drone")  # a plain URDF loads without a child process
 Q = (0.3, -0.7, 0.1)

@@ -9,7 +9,7 @@ import pytest
 
 import pinscrew as ps
 from pinscrew.description import catalogue
-from pinscrew.errors import DescriptionError, MissingExtraError, PinscrewWarning
+from pinscrew.ground.errors import DescriptionError, MissingExtraError, PinscrewWarning
 
 try:
     ENTRIES = catalogue.example_robots()

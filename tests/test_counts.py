@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pinscrew.counts import whole
-from pinscrew.errors import InputError
+from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import InputError
 
 
 @pytest.mark.parametrize("value", [3, 3.0, np.int64(3), np.float32(3)])

@@ -11,7 +11,7 @@ import pytest
 import pinscrew as ps
 import urdfs
 from broken import ROBOT, edited, motion, pair, with_motions
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.verification.report import Report
 from pinscrew.verification.run import verify
 

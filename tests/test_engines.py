@@ -11,8 +11,8 @@ import pytest
 
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import AmbiguousTipError, InputError, UnknownNameError
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.ground.errors import AmbiguousTipError, InputError, UnknownNameError
+from pinscrew.ground.typing import KINDS, FloatArray
 
 ENGINES = (ps.PoE, ps.Pinocchio, ps.Batch)
 BATCHES = ((), (1,), (5,), (2, 3), (0,), (2, 0, 3))

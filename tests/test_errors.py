@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pinscrew import error_codes, errors
+from pinscrew.ground import error_codes, errors
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((ROOT / "src" / "pinscrew").rglob("*.py"))

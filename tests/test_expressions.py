@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pinscrew.errors import InputError
-from pinscrew.expressions import Expression, number
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.expressions import Expression, number
 
 
 def test_variables_are_numbers_or_arrays() -> None:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from pinscrew import files
-from pinscrew.errors import InputError, MissingExtraError
+from pinscrew.ground import files
+from pinscrew.ground.errors import InputError, MissingExtraError
 from pinscrew.view import figures
 
 pytest.importorskip("matplotlib")

@@ -22,9 +22,9 @@ import urdfs
 from pinscrew.description import catalogue, markup, urdf
 from pinscrew.description.expand import expand
 from pinscrew.description.structure import MAX_NUMBER
-from pinscrew.errors import PinscrewError, PinscrewWarning
-from pinscrew.robot import FLOATING_JOINT, UNIVERSE
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import PinscrewError, PinscrewWarning
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE
 
 TOLERANCE: Final = 1e-12
 SLOW: Final = pytest.mark.slow

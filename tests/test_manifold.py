@@ -6,7 +6,7 @@ import pytest
 
 import pinscrew as ps
 import urdfs
-from pinscrew.manifold import integrate
+from pinscrew.robot.manifold import integrate
 
 CASES = ["single_revolute", "mimic_chain", "continuous", "planar", "floating_middle", "rotated"]
 

@@ -10,7 +10,7 @@ import pytest
 
 from pinscrew.description.meshes import mesh_file
 from pinscrew.description.packages import Packages
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 
 
 @pytest.fixture(autouse=True)

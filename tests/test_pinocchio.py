@@ -19,8 +19,8 @@ from pinscrew.description.model import Limits, Mimic
 from pinscrew.engines import pinocchio as engine_module
 from pinscrew.engines.base import Answers
 from pinscrew.engines.pinocchio import MAX_COORDINATES, MAX_DEPTH
-from pinscrew.errors import EngineError, PinscrewWarning, UnsupportedError
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.ground.errors import EngineError, PinscrewWarning, UnsupportedError
+from pinscrew.ground.typing import KINDS, FloatArray
 
 AGREEMENT = 1e-13
 """Times max(1, largest entry): 450 ε, for up to 9 joints of some 20 roundings each on both sides."""

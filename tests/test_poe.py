@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation
 import pinscrew as ps
 import urdfs
 from pinscrew.engines.poe import BLOCK, _Chain
-from pinscrew.mechanism import JointMotion
-from pinscrew.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.robot.mechanism import JointMotion
 
 EPSILON = float(np.finfo(float).eps)
 MOVING = [name for name in urdfs.ROBOTS if name not in ("no_joints", "only_fixed")]

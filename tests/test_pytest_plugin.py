@@ -12,7 +12,7 @@ import pytest
 import pinscrew as ps
 import urdfs
 from pinscrew import lockfile
-from pinscrew.errors import EngineError
+from pinscrew.ground.errors import EngineError
 from pinscrew.pytest_plugin import subject
 from pinscrew.verification import run as verification
 

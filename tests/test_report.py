@@ -12,7 +12,7 @@ import pytest
 import pinscrew as ps
 import urdfs
 from broken import ROBOT, edited, pair
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 from pinscrew.verification import formats
 from pinscrew.verification.formats import Unverified
 from pinscrew.verification.report import Check, Place, Report

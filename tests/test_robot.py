@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
+from pinscrew.ground.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
 from pinscrew.lie import se3
-from pinscrew.robot import FLOATING_JOINT, UNIVERSE
+from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE
 
 
 def robot(name: str, **options: Any) -> ps.Robot:

@@ -13,10 +13,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import lie_strategies as ls
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.screw import Screw
-from pinscrew.typing import FloatArray
+from pinscrew.lie.screw import Screw
 
 EPSILON = ls.EPSILON
 

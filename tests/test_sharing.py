@@ -11,7 +11,7 @@ import pytest
 
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import DescriptionError, InputError
+from pinscrew.ground.errors import DescriptionError, InputError
 
 ENGINES = [ps.PoE, ps.Pinocchio]
 COPIES = {"pickle": lambda value: pickle.loads(pickle.dumps(value)), "deepcopy": copy.deepcopy}  # noqa: S301

@@ -12,8 +12,8 @@ import pinscrew as ps
 import urdfs
 from broken import ROBOT, edited, pair
 from pinscrew.description.catalogue import bundled
-from pinscrew.errors import InputError, UnknownNameError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import InputError, UnknownNameError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.verification import comparison, differences
 from pinscrew.verification.configurations import (
     FAR_ANGLE,

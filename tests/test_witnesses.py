@@ -22,8 +22,8 @@ from layering import MODULES, imports, kinematics_used, reachable
 from pinscrew.description import catalogue
 from pinscrew.engines import hybrid, witness
 from pinscrew.engines.base import Engine
-from pinscrew.errors import EngineError, MissingExtraError, PinscrewWarning, UnknownNameError, UnsupportedError
-from pinscrew.typing import KINDS
+from pinscrew.ground.errors import EngineError, MissingExtraError, PinscrewWarning, UnknownNameError, UnsupportedError
+from pinscrew.ground.typing import KINDS
 from pinscrew.verification.report import Report
 
 BOTH: Final = ("mujoco", "roboticstoolbox")

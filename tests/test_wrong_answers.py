@@ -13,8 +13,8 @@ import pytest
 import pinscrew as ps
 from broken import ROBOT, Alter, Altered, pair
 from pinscrew.engines.base import Answers
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.lie import se3
-from pinscrew.typing import KINDS, FloatArray
 from pinscrew.verification.configurations import configurations
 from pinscrew.verification.report import Report
 from pinscrew.verification.run import verify

@@ -17,7 +17,7 @@ import pinscrew as ps
 from pinscrew.description import catalogue, markup
 from pinscrew.description.expand import expand
 from pinscrew.description.packages import Packages
-from pinscrew.errors import DescriptionError, PinscrewWarning, XacroError
+from pinscrew.ground.errors import DescriptionError, PinscrewWarning, XacroError
 
 NS: Final = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 LINKS: Final = '<link name="a"/><link name="b"/>'

@@ -9,8 +9,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from pinscrew.description import urdf
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 SCALAR: Final = ("revolute", "continuous", "prismatic")
 

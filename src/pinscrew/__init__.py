@@ -13,8 +13,11 @@ Twists and Jacobian rows are (v, ω), linear part first; lengths are metres, ang
 
 from __future__ import annotations
 
+import functools
 import importlib
 from typing import TYPE_CHECKING, Any
+
+from pinscrew.ground.displays import DRAWN_BY
 
 if TYPE_CHECKING:
     from pinscrew import lie
@@ -22,12 +25,11 @@ if TYPE_CHECKING:
     from pinscrew.changes.run import diff
     from pinscrew.derivation.run import derive
     from pinscrew.engines.base import Engine
-    from pinscrew.engines.batch import Batch
+    from pinscrew.engines.compiled.batch import Batch
     from pinscrew.engines.pinocchio import Pinocchio
     from pinscrew.engines.poe import PoE
-    from pinscrew.engines.witness import witness
-    from pinscrew.errors import PinscrewError, PinscrewWarning
-    from pinscrew.loading import load
+    from pinscrew.ground.errors import PinscrewError, PinscrewWarning
+    from pinscrew.lie.screw import Screw
     from pinscrew.motion.integration import integrate
     from pinscrew.motion.inverse_kinematics import Solution, ik
     from pinscrew.motion.inverse_velocity import InverseVelocity, inverse_velocity
@@ -36,11 +38,12 @@ if TYPE_CHECKING:
     from pinscrew.motion.singularity import Singularity, classify_singularity
     from pinscrew.motion.track import Track, track
     from pinscrew.motion.trajectory import Trajectory
-    from pinscrew.robot import Robot
-    from pinscrew.screw import Screw
+    from pinscrew.robot.loading import load
+    from pinscrew.robot.robot import Robot
     from pinscrew.verification.report import Report
     from pinscrew.verification.run import verify
     from pinscrew.view.meshcat import show
+    from pinscrew.witnesses.witness import witness
     from pinscrew.workspace.reachability import reachability
     from pinscrew.workspace.reachability_map import ReachabilityMap
     from pinscrew.workspace.sweep import Sweep, sweep
@@ -86,19 +89,19 @@ __version__ = "0.1.0"
 
 # Where each public name lives: parsers and engines are heavy, and load when first used.
 _HOMES = {
-    "Batch": "pinscrew.engines.batch",
+    "Batch": "pinscrew.engines.compiled.batch",
     "Changes": "pinscrew.changes.model",
     "Engine": "pinscrew.engines.base",
     "InverseVelocity": "pinscrew.motion.inverse_velocity",
     "Pinocchio": "pinscrew.engines.pinocchio",
-    "PinscrewError": "pinscrew.errors",
-    "PinscrewWarning": "pinscrew.errors",
+    "PinscrewError": "pinscrew.ground.errors",
+    "PinscrewWarning": "pinscrew.ground.errors",
     "PoE": "pinscrew.engines.poe",
     "Profile": "pinscrew.motion.profile",
     "ReachabilityMap": "pinscrew.workspace.reachability_map",
     "Report": "pinscrew.verification.report",
-    "Robot": "pinscrew.robot",
-    "Screw": "pinscrew.screw",
+    "Robot": "pinscrew.robot.robot",
+    "Screw": "pinscrew.lie.screw",
     "Singularity": "pinscrew.motion.singularity",
     "Solution": "pinscrew.motion.inverse_kinematics",
     "Sweep": "pinscrew.workspace.sweep",
@@ -112,14 +115,23 @@ _HOMES = {
     "integrate": "pinscrew.motion.integration",
     "inverse_velocity": "pinscrew.motion.inverse_velocity",
     "lie": "pinscrew.lie",
-    "load": "pinscrew.loading",
+    "load": "pinscrew.robot.loading",
     "reachability": "pinscrew.workspace.reachability",
     "show": "pinscrew.view.meshcat",
     "sweep": "pinscrew.workspace.sweep",
     "track": "pinscrew.motion.track",
     "verify": "pinscrew.verification.run",
-    "witness": "pinscrew.engines.witness",
+    "witness": "pinscrew.witnesses.witness",
 }
+
+
+def _drawn(drawing: str, thing: Any) -> str:
+    """What a function of the notebook's makes of a thing; the view is loaded when it is first asked."""
+    shown: str = getattr(importlib.import_module("pinscrew.view.notebook"), drawing)(thing)
+    return shown
+
+
+DRAWN_BY["Robot"] = functools.partial(_drawn, "robot")
 
 
 def __getattr__(name: str) -> Any:

@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from scipy.linalg import expm
 
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 
 class Edited:

@@ -14,8 +14,8 @@ import pinscrew as ps
 import urdfs
 from pinscrew.changes import walk
 from pinscrew.description.catalogue import bundled
-from pinscrew.errors import InputError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import InputError
+from pinscrew.robot.robot import Robot
 
 ARM = urdfs.robot(
     urdfs.joint("j1", "revolute", "base", "l1", xyz="0 0 0.3"),

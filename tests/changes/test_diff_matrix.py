@@ -14,8 +14,8 @@ from diff_matrix import CHANGED, SAME, Row, scaled, ten_times
 import pinscrew as ps
 from pinscrew.description import urdf
 from pinscrew.description.catalogue import example_robots
-from pinscrew.errors import MissingExtraError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import MissingExtraError
+from pinscrew.robot.robot import Robot
 from pinscrew.verification.configurations import configurations
 
 

@@ -14,8 +14,8 @@ from diff_matrix import axis_moved_alone, axis_turned, origin_moved, origin_turn
 import pinscrew as ps
 from pinscrew.description import urdf
 from pinscrew.description.catalogue import example_robots
-from pinscrew.errors import MissingExtraError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import MissingExtraError
+from pinscrew.robot.robot import Robot
 
 BROKEN = {"falcon", "ur3", "alex_psyonic_hands"}
 """Files that are refused for what they say."""

@@ -8,7 +8,7 @@ import sympy as sp
 import pinscrew as ps
 from pinscrew.derivation import arguments
 from pinscrew.derivation.reading import printed
-from pinscrew.errors import PinscrewError
+from pinscrew.ground.errors import PinscrewError
 from urdfs import joint, robot
 
 XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">

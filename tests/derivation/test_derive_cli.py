@@ -10,7 +10,7 @@ from click.testing import CliRunner, Result
 
 from pinscrew.cli import command
 from pinscrew.derivation import proof
-from pinscrew.errors import PinscrewError
+from pinscrew.ground.errors import PinscrewError
 
 
 def run(*arguments: str) -> Result:

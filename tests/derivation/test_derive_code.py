@@ -11,7 +11,7 @@ import pytest
 
 import pinscrew as ps
 from pinscrew.derivation.code import LANGUAGES, code
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 ROBOTS = [
     ("spherical_rrp", None),

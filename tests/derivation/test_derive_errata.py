@@ -4,7 +4,7 @@ import pytest
 
 import pinscrew as ps
 from pinscrew.derivation import errata
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 ALL = errata.errata()
 

@@ -17,7 +17,7 @@ from chromium import BROWSER, FLAGS
 from pinscrew.derivation import reports
 from pinscrew.derivation.blocks import Formula, Report
 from pinscrew.derivation.sections import PARTS
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 
 @cache

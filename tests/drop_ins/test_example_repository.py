@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from command_line import run
-from pinscrew.findings import RULES
+from pinscrew.reporting import RULES
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "robot_repository"

@@ -14,9 +14,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import lie_strategies as ls
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
-from pinscrew.typing import FloatArray
 
 EPSILON, SPACING = ls.EPSILON, ls.SPACING
 Function = Callable[[Any], FloatArray]

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import lie_strategies as ls
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import _series, so3
-from pinscrew.typing import FloatArray
 
 EPSILON, SPACING = ls.EPSILON, ls.SPACING
 Function = Callable[[Any], FloatArray]

@@ -14,7 +14,7 @@ import pinscrew as ps
 import urdfs
 from pinscrew import lockfile
 from pinscrew.description import catalogue
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 from pinscrew.lockfile import places
 
 ARM: Final = urdfs.robot(

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import urdfs
 from pinscrew import lockfile
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 from pinscrew.lockfile import document, parsing
 
 ROBOT = urdfs.load(

@@ -19,7 +19,7 @@ import urdfs
 from pinscrew import lockfile
 from pinscrew.changes.run import diff
 from pinscrew.description import catalogue
-from pinscrew.errors import MissingExtraError, PinscrewWarning
+from pinscrew.ground.errors import MissingExtraError, PinscrewWarning
 
 BUNDLED = [entry.name for entry in catalogue.bundled()]
 EXAMPLES = ("panda", "ur5_robot", "talos_reduced", "romeo", "so100", "tiago", "hyq_no_sensors", "allegro_right_hand")

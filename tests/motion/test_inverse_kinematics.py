@@ -17,11 +17,11 @@ from scipy.optimize import minimize
 
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import AmbiguousTipError, InputError, UnknownNameError
+from pinscrew.ground.errors import AmbiguousTipError, InputError, UnknownNameError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.motion.descent import Descent
 from pinscrew.motion.freedoms import freedoms
-from pinscrew.typing import FloatArray
 
 BUNDLED = (
     "spherical",

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 import closed_forms as cf
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import InputError, PinscrewError
+from pinscrew.ground.errors import InputError, PinscrewError
 from pinscrew.motion.schemes import SCHEMES
 
 Array = npt.NDArray[np.float64]

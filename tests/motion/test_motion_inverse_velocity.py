@@ -10,7 +10,7 @@ import pytest
 
 import closed_forms as cf
 import pinscrew as ps
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 from pinscrew.motion.inverse_velocity import rate_bounds
 
 Array = npt.NDArray[np.float64]

@@ -10,7 +10,7 @@ import pytest
 
 import closed_forms as cf
 import pinscrew as ps
-from pinscrew.errors import DescriptionError, InputError, PinscrewError, UnknownNameError
+from pinscrew.ground.errors import DescriptionError, InputError, PinscrewError, UnknownNameError
 from pinscrew.motion.profile_files import named
 
 A8 = cf.AnthropomorphicRRR()

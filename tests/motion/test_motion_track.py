@@ -16,7 +16,7 @@ import closed_forms as cf
 import pinscrew as ps
 import urdfs
 from command_line import ok, refused
-from pinscrew.errors import InputError, MissingExtraError
+from pinscrew.ground.errors import InputError, MissingExtraError
 from pinscrew.motion import formats
 from pinscrew.motion.track import STAGES
 

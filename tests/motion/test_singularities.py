@@ -12,8 +12,8 @@ import pytest
 
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import InputError, UnknownNameError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import InputError, UnknownNameError
+from pinscrew.ground.typing import FloatArray
 
 FRAMES = {"ur5_robot": "tool0", "panda": "panda_hand_tcp"}
 

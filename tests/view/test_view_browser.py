@@ -17,8 +17,8 @@ import pinscrew as ps
 import urdfs
 from pinscrew.description import urdf
 from pinscrew.description.visuals import Looks
-from pinscrew.robot import Robot
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.ground.typing import KINDS, FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.view import prepare, scene
 from pinscrew.view.meshcat import View
 from pinscrew.view.model import Model, samples

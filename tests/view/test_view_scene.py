@@ -11,7 +11,7 @@ from view_support import ARMS, FREE, MIXED
 import pinscrew as ps
 import urdfs
 from pinscrew.description.visuals import Looks
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 from pinscrew.view import document, prepare, scene, twists
 from pinscrew.view.model import Model, default_tip, samples
 from pinscrew.view.shapes import GROUPS, Drawable

@@ -18,7 +18,7 @@ import pytest
 from view_support import LOOPBACK, children, listening
 
 import pinscrew as ps
-from pinscrew.errors import ViewError
+from pinscrew.ground.errors import ViewError
 from pinscrew.view import notebook, prepare
 from pinscrew.view.meshcat import View
 from pinscrew.view.server import HOST
@@ -248,7 +248,7 @@ def test_the_notebook_gets_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
     assert shown.startswith('<iframe title="scara_rrp" sandbox="allow-scripts"')
     assert shown.count("<") == 2
     monkeypatch.setattr(notebook, "page", lambda *_: "\"'<>&")
-    assert 'srcdoc="&quot;&#x27;&lt;&gt;&amp;"' in notebook.html(robot)
+    assert 'srcdoc="&quot;&#x27;&lt;&gt;&amp;"' in notebook.robot(robot)
 
 
 def test_only_what_exists_is_drawn() -> None:

@@ -12,7 +12,7 @@ import pytest
 import pinscrew as ps
 from pinscrew.description import urdf, visuals
 from pinscrew.description.packages import Packages
-from pinscrew.errors import DescriptionError, PinscrewWarning
+from pinscrew.ground.errors import DescriptionError, PinscrewWarning
 from pinscrew.view import mesh_files
 
 

@@ -20,9 +20,9 @@ import pytest
 
 import closed_forms
 import pinscrew as ps
-from pinscrew.engines.batch import for_many
-from pinscrew.errors import EngineError, InputError, PinscrewError
-from pinscrew.processes import process_pool
+from pinscrew.engines.compiled.batch import for_many
+from pinscrew.ground.errors import EngineError, InputError, PinscrewError
+from pinscrew.ground.processes import process_pool
 from pinscrew.workspace import blocks
 from pinscrew.workspace import reachability as reachability_module
 from pinscrew.workspace.axes import axes

@@ -14,7 +14,7 @@ from scipy.spatial.distance import cdist
 
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import InputError, MissingExtraError
+from pinscrew.ground.errors import InputError, MissingExtraError
 from pinscrew.view import figures, plot_workspace
 from pinscrew.workspace.comparison import from_reference
 from pinscrew.workspace.density import density, dimensions

@@ -14,7 +14,7 @@ from scipy.stats import qmc
 import closed_forms
 import pinscrew as ps
 import urdfs
-from pinscrew.errors import InputError, MissingExtraError, PinscrewError, UnknownNameError
+from pinscrew.ground.errors import InputError, MissingExtraError, PinscrewError, UnknownNameError
 from pinscrew.lockfile import fingerprint
 from pinscrew.workspace.axes import axes, sobol
 from pinscrew.workspace.comparison import from_reference

@@ -11,7 +11,7 @@ from pinscrew.changes.model import Change
 from pinscrew.changes.placement import Placement
 from pinscrew.changes.wording import degrees, interval, millimetres, number
 from pinscrew.description.model import Description, Joint, Mimic, drivers
-from pinscrew.robot import Robot
+from pinscrew.robot.robot import Robot
 
 __all__ = ["attributes", "driven", "opposite", "renames"]
 

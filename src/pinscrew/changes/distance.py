@@ -10,8 +10,8 @@ import numpy as np
 from pinscrew.changes.geometry import turned
 from pinscrew.changes.model import Displacement, Place
 from pinscrew.engines.poe import PoE
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.verification.configurations import configurations, effective_limits
 
 __all__ = ["columns", "largest"]

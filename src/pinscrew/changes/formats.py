@@ -8,8 +8,8 @@ from typing import Final
 
 from pinscrew.changes.model import Change, Changes, Place
 from pinscrew.changes.wording import degrees, millimetres, number
-from pinscrew.findings.markdown import cell
-from pinscrew.words import one_line
+from pinscrew.ground.words import one_line
+from pinscrew.reporting.markdown import cell
 
 __all__ = ["SCHEMA", "summary", "to_json", "to_markdown", "to_text"]
 

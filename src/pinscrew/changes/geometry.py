@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from pinscrew.changes.matching import Matching, Step
 from pinscrew.description.model import Description, Joint
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
-from pinscrew.typing import FloatArray
 
 __all__ = ["Features", "Near", "Poses", "apart", "between", "displaced", "kind", "link_steps", "motion_of", "turned"]
 

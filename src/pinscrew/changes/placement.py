@@ -15,7 +15,7 @@ from pinscrew.changes.model import Change
 from pinscrew.changes.walk import Met
 from pinscrew.changes.wording import degrees, millimetres, moved
 from pinscrew.description.model import Joint
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["Placement", "Tips", "placement"]
 

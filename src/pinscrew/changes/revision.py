@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-from pinscrew.errors import InputError, PinscrewError, PinscrewWarning
+from pinscrew.ground.errors import InputError, PinscrewError, PinscrewWarning
 
 __all__ = ["is_revision", "taken_out"]
 

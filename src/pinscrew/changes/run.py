@@ -11,8 +11,8 @@ from pinscrew.changes.matching import Matching, match
 from pinscrew.changes.model import Change, Changes
 from pinscrew.changes.placement import placement
 from pinscrew.changes.walk import walk
-from pinscrew.errors import InputError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import InputError
+from pinscrew.robot.robot import Robot
 
 __all__ = ["diff"]
 

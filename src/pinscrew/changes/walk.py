@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from pinscrew.changes.geometry import Features, Poses, between, kind
 from pinscrew.changes.matching import Step
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["Met", "walk"]
 

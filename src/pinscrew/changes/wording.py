@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["degrees", "interval", "millimetres", "moved", "number"]
 

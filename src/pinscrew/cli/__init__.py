@@ -14,7 +14,7 @@ from typing import Any, Final
 import click
 
 from pinscrew import __version__
-from pinscrew.errors import PinscrewError, PinscrewWarning
+from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 
 __all__ = ["command", "main"]
 

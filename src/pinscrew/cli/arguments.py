@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 import click
 from click.shell_completion import CompletionItem
 
-from pinscrew import expressions
-from pinscrew.errors import InputError
+from pinscrew.ground import expressions
+from pinscrew.ground.errors import InputError
 
 if TYPE_CHECKING:
-    from pinscrew.robot import Robot
-    from pinscrew.typing import FloatArray
+    from pinscrew.ground.typing import FloatArray
+    from pinscrew.robot.robot import Robot
 
 __all__ = [
     "OUTPUT",
@@ -58,7 +58,7 @@ class Named:
 
     def load(self) -> Robot:
         """The robot."""
-        from pinscrew.loading import load
+        from pinscrew.robot.loading import load
 
         return load(self.source, arguments=self.arguments, **self.options)
 

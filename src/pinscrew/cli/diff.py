@@ -13,7 +13,7 @@ import click
 from pinscrew.cli import arguments, output
 
 if TYPE_CHECKING:
-    from pinscrew.robot import Robot
+    from pinscrew.robot.robot import Robot
 
 __all__ = ["command"]
 

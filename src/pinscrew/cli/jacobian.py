@@ -31,7 +31,7 @@ def command(words: tuple[str, ...], values: str | None, kind: str, tip: str | No
       pinscrew jacobian scara -q 45deg,pi/4,0.1 --kind body
     """
     import pinscrew as ps
-    from pinscrew.typing import jacobian_kind
+    from pinscrew.ground.typing import jacobian_kind
     from pinscrew.verification.comparison import jacobian_error
     from pinscrew.verification.configurations import sizes
     from pinscrew.verification.run import TOLERANCE

@@ -14,11 +14,11 @@ import click
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
 from pinscrew.cli.reports import Wanted, report_options
-from pinscrew.errors import DescriptionError, PinscrewError
+from pinscrew.ground.errors import DescriptionError, PinscrewError
 
 if TYPE_CHECKING:
     from pinscrew.lockfile.checking import Checked
-    from pinscrew.robot import Robot
+    from pinscrew.robot.robot import Robot
 
     _Failure: TypeAlias = tuple[Path, PinscrewError]
 
@@ -185,8 +185,8 @@ def _locks(words: Sequence[str]) -> list[Path]:
 
 
 def _report(wanted: Wanted, checked: Sequence[Checked], errors: Sequence[_Failure]) -> None:
-    from pinscrew.findings import from_error, to_junit, to_markdown
     from pinscrew.lockfile.findings import from_checked
+    from pinscrew.reporting import from_error, to_junit, to_markdown
 
     findings = [found for one in checked for found in from_checked(one)]
     findings += [from_error(error, str(path)) for path, error in errors]

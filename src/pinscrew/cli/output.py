@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from pinscrew import files
+from pinscrew.ground import files
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from pinscrew.typing import FloatArray
+    from pinscrew.ground.typing import FloatArray
 
 __all__ = ["NARROW", "console", "matrix_lines", "plain", "print_json", "table", "write_file"]
 

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import click
 
-from pinscrew import files
 from pinscrew.cli import arguments, output
+from pinscrew.ground import files
 
 if TYPE_CHECKING:
-    from pinscrew.findings.model import Finding
+    from pinscrew.reporting.model import Finding
 
 __all__ = ["Wanted", "report_options"]
 
@@ -62,7 +62,7 @@ class Wanted:
         Raises:
             InputError: if a file can't be written.
         """
-        from pinscrew.findings import to_annotations, to_sarif
+        from pinscrew.reporting import to_annotations, to_sarif
 
         if self.github:
             click.echo(to_annotations(findings), err=True, nl=False)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from pinscrew.cli.output import plain
 
 if TYPE_CHECKING:
-    from pinscrew.typing import FloatArray
+    from pinscrew.ground.typing import FloatArray
 
 __all__ = ["FORMATS", "Screws"]
 

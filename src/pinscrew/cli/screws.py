@@ -10,7 +10,7 @@ from pinscrew.cli import arguments, output
 from pinscrew.cli.screw_formats import FORMATS, Screws
 
 if TYPE_CHECKING:
-    from pinscrew.robot import Robot
+    from pinscrew.robot.robot import Robot
 
 __all__ = ["command"]
 
@@ -77,7 +77,7 @@ def command(
 
 
 def _print_table(found: Screws, robot: Robot) -> None:
-    from pinscrew.screw import Screw
+    from pinscrew.lie.screw import Screw
 
     frame = found.tip if found.at == "body" else found.base
     table = output.table("joint", found.heading, "direction", "through", "pitch", "magnitude")

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from pinscrew import files
 from pinscrew.cli import arguments, output
-from pinscrew.errors import UnknownNameError
+from pinscrew.ground import files
+from pinscrew.ground.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from types import FrameType

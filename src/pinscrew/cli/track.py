@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from pinscrew import files
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
+from pinscrew.ground import files
 
 if TYPE_CHECKING:
+    from pinscrew.ground.typing import FloatArray
     from pinscrew.motion.track import Track
-    from pinscrew.typing import FloatArray
 
 __all__ = ["command"]
 

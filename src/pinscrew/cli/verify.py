@@ -13,13 +13,13 @@ import click
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
 from pinscrew.cli.reports import Wanted, report_options
-from pinscrew.engines.witness import WITNESSES, require
-from pinscrew.errors import PinscrewError, PinscrewWarning
-from pinscrew.processes import job_count, process_pool
+from pinscrew.ground.errors import PinscrewError, PinscrewWarning
+from pinscrew.ground.processes import job_count, process_pool
+from pinscrew.witnesses.witness import WITNESSES, require
 
 if TYPE_CHECKING:
-    from pinscrew.findings.model import Finding
-    from pinscrew.robot import Robot
+    from pinscrew.reporting.model import Finding
+    from pinscrew.robot.robot import Robot
     from pinscrew.verification.report import Report
 
     _Outcome: TypeAlias = tuple[list[Report], list[PinscrewError], list[PinscrewWarning], list[Finding]]
@@ -132,7 +132,7 @@ def _outcome(
 
     Where our engines could not be compared, no witness is heard.
     """
-    from pinscrew.findings.troubles import from_error, from_warning
+    from pinscrew.reporting.troubles import from_error, from_warning
     from pinscrew.verification.findings import from_report
 
     reports: list[Report] = []
@@ -168,8 +168,8 @@ def _warn(remarks: Sequence[PinscrewWarning], *, brief: bool) -> None:
 def _verify(robot: Robot, samples: int, seed: int, frames: tuple[str, ...], against: str | None = None) -> Report:
     """The report on both engines of ours, or on the PoE engine and a witness."""
     from pinscrew.engines.poe import PoE
-    from pinscrew.engines.witness import witness
     from pinscrew.verification.run import verify
+    from pinscrew.witnesses.witness import witness
 
     engines = None if against is None else (PoE(robot), witness(against, robot))
     return verify(robot, samples, seed, frames=frames or None, engines=engines)

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from pinscrew import expressions
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
-from pinscrew.errors import InputError
+from pinscrew.ground import expressions
+from pinscrew.ground.errors import InputError
 
 if TYPE_CHECKING:
-    from pinscrew.robot import Robot
+    from pinscrew.robot.robot import Robot
     from pinscrew.workspace.reachability_map import ReachabilityMap
     from pinscrew.workspace.sweep import Sweep
 

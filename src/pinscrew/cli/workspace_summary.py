@@ -12,7 +12,7 @@ from pinscrew.cli import output
 from pinscrew.workspace.measures import Measures, unit
 
 if TYPE_CHECKING:
-    from pinscrew.typing import FloatArray
+    from pinscrew.ground.typing import FloatArray
     from pinscrew.workspace.reachability_map import ReachabilityMap
     from pinscrew.workspace.sweep import Sweep
 

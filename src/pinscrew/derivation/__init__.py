@@ -8,7 +8,7 @@ modules of reports write it all down.
 
 from importlib.util import find_spec
 
-from pinscrew.errors import MissingExtraError
+from pinscrew.ground.errors import MissingExtraError
 
 if find_spec("sympy") is None:
     raise MissingExtraError("sympy is not installed", "derive")

@@ -20,8 +20,8 @@ import sympy as sp
 from pinscrew.derivation.exact import length
 from pinscrew.derivation.reading import Printed, printed
 from pinscrew.description import catalogue, expand
-from pinscrew.errors import PinscrewError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import PinscrewError
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Arguments", "Loader", "recover"]
 

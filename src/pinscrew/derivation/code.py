@@ -10,8 +10,8 @@ from typing import Any, Final
 import sympy as sp
 
 from pinscrew.derivation.derivation import Derivation
-from pinscrew.errors import InputError
-from pinscrew.typing import KindLike, jacobian_kind
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import KindLike, jacobian_kind
 
 __all__ = ["LANGUAGES", "code"]
 

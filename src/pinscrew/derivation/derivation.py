@@ -16,8 +16,8 @@ from pinscrew.derivation.chain import Chain, Elements, Variable
 from pinscrew.derivation.exact import Snapped
 from pinscrew.derivation.factoring import Factoring
 from pinscrew.derivation.reading import Geometry
-from pinscrew.robot import Robot
-from pinscrew.typing import KindLike, jacobian_kind
+from pinscrew.ground.typing import KindLike, jacobian_kind
+from pinscrew.robot.robot import Robot
 
 if TYPE_CHECKING:
     from pinscrew.derivation.proof import Proof

@@ -19,11 +19,11 @@ import sympy as sp
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
 from pinscrew.description import catalogue
 from pinscrew.engines.pair import pair_of
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
-from pinscrew.loading import load
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.loading import load
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Erratum", "Verdict", "errata", "report", "verdicts"]
 

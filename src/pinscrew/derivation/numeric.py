@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 
 from pinscrew.derivation.derivation import Derivation
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["evaluate"]
 

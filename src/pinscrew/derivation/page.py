@@ -10,7 +10,7 @@ from typing import Final
 
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
 from pinscrew.derivation.formats import is_long, split_text
-from pinscrew.errors import MissingExtraError
+from pinscrew.ground.errors import MissingExtraError
 
 __all__ = ["to_html"]
 

@@ -11,13 +11,13 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import sympy as sp
 
-from pinscrew.counts import whole
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.numeric import evaluate
 from pinscrew.description import urdf
+from pinscrew.ground.counts import whole
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.lie import se3
-from pinscrew.robot import Robot
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["TOLERANCE", "Compared", "Proof", "prove"]
 

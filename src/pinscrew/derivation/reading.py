@@ -11,8 +11,8 @@ import sympy as sp
 from pinscrew.derivation import exact
 from pinscrew.description import markup
 from pinscrew.description.model import SCALAR_TYPES, Description
-from pinscrew.errors import UnsupportedError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import UnsupportedError
+from pinscrew.robot.robot import Robot
 
 __all__ = ["MOST_JOINTS", "Geometry", "Printed", "geometry", "printed"]
 

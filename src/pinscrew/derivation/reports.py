@@ -12,7 +12,7 @@ from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
 from pinscrew.derivation.sections import sections
 from pinscrew.derivation.typeset import Typesetter
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 __all__ = ["report", "write"]
 

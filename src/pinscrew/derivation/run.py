@@ -12,9 +12,9 @@ import sympy as sp
 from pinscrew.derivation import arguments, exact, reading
 from pinscrew.derivation.chain import Variable, compose
 from pinscrew.derivation.derivation import Convention, Derivation
-from pinscrew.errors import InputError
-from pinscrew.loading import load
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import InputError
+from pinscrew.robot.loading import load
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Naming", "derive"]
 

@@ -14,7 +14,7 @@ from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.typeset import Typesetter
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 __all__ = ["PARTS", "sections", "wanted"]
 

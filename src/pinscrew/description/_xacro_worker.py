@@ -25,8 +25,8 @@ from xacro import substitution_args
 from pinscrew.description import _xacro_expressions as expressions
 from pinscrew.description import markup
 from pinscrew.description.packages import Packages, is_file
-from pinscrew.errors import DescriptionError
-from pinscrew.words import brief, one_line
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.words import brief, one_line
 
 _MACROS: Final = ("arg", "dotify", "tokenize", "abs_filename", "load_yaml")
 _MESSAGES: Final = ("message", "warning", "error", "fatal", "print_location")

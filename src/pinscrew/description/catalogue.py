@@ -13,7 +13,7 @@ from typing import Final
 
 from pinscrew.description import expand, markup
 from pinscrew.description.packages import is_file
-from pinscrew.errors import MissingExtraError, UnknownNameError
+from pinscrew.ground.errors import MissingExtraError, UnknownNameError
 
 __all__ = ["Entry", "bundled", "declared_arguments", "example_robots", "find", "is_path", "robots_directory"]
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from pinscrew.description.packages import Packages
-from pinscrew.errors import PinscrewWarning, XacroError
-from pinscrew.words import brief, one_line
+from pinscrew.ground.errors import PinscrewWarning, XacroError
+from pinscrew.ground.words import brief, one_line
 
 __all__ = ["MEMORY", "SECONDS", "expand", "is_xacro"]
 

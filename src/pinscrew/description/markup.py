@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Final, NoReturn
 from xml.parsers import expat
 
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 
 __all__ = ["MAX_BYTES", "Element", "decode", "parse", "read"]
 

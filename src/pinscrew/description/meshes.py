@@ -7,8 +7,8 @@ from urllib.parse import unquote
 
 from pinscrew.description import markup
 from pinscrew.description.packages import Packages, is_file
-from pinscrew.errors import DescriptionError
-from pinscrew.words import brief
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.words import brief
 
 __all__ = ["mesh_file"]
 

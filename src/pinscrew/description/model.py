@@ -10,7 +10,7 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["JOINT_TYPES", "SCALAR_TYPES", "Description", "Joint", "JointType", "Limits", "Mimic", "Rebuilt", "drivers"]
 

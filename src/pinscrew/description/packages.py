@@ -12,8 +12,8 @@ from types import MappingProxyType
 from typing import Final
 from urllib.parse import unquote
 
-from pinscrew.errors import DescriptionError
-from pinscrew.words import brief, one_line
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.words import brief, one_line
 
 __all__ = ["Packages", "is_file"]
 

@@ -16,8 +16,8 @@ from typing import Final
 
 from pinscrew.description.markup import Element
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES
-from pinscrew.errors import DescriptionError, PinscrewWarning, UnsupportedError
-from pinscrew.words import brief
+from pinscrew.ground.errors import DescriptionError, PinscrewWarning, UnsupportedError
+from pinscrew.ground.words import brief
 
 __all__ = ["MIN_AXIS", "Checked", "check"]
 

@@ -19,8 +19,8 @@ from pinscrew.description.markup import Element
 from pinscrew.description.meshes import mesh_file
 from pinscrew.description.model import Description, read_only
 from pinscrew.description.packages import Packages
-from pinscrew.errors import DescriptionError, PinscrewWarning
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import DescriptionError, PinscrewWarning
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["DEFAULT_COLOR", "Color", "Geometry", "Looks", "Visual", "read"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = [
     "apply",

@@ -11,10 +11,10 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.errors import InputError
-from pinscrew.manifold import quaternion_starts
-from pinscrew.robot import Robot
-from pinscrew.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
+from pinscrew.robot.manifold import quaternion_starts
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Answers", "CheckedEngine", "Engine", "JointView"]
 
@@ -133,7 +133,7 @@ class CheckedEngine(ABC):
         Args:
             q: coordinates, shape (..., nq), rad and m.
             frame: a link's name; by default the robot's tip.
-            kind: ``"spatial"``, ``"body"`` or ``"hybrid"``, or Pinocchio's name for it; see `pinscrew.typing`.
+            kind: ``"spatial"``, ``"body"`` or ``"hybrid"``, or Pinocchio's name for it; see `pinscrew.ground.typing`.
 
         Returns:
             shape (..., 6, nv).

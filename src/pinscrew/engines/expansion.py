@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pinscrew.description import markup
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Driven", "Expansion", "read_mimics"]
 

@@ -19,9 +19,9 @@ import numpy as np
 
 from pinscrew.description import markup
 from pinscrew.engines.base import Answers, CheckedEngine
-from pinscrew.errors import UnsupportedError
-from pinscrew.robot import FLOATING_JOINT, Robot
-from pinscrew.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.ground.errors import UnsupportedError
+from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.robot.robot import FLOATING_JOINT, Robot
 
 __all__ = ["MAX_LINKS", "Drive", "HybridEngine", "Told", "drive", "joint_names", "plain_urdf"]
 

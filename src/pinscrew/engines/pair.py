@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pinscrew.engines.base import Engine
-from pinscrew.robot import Robot
+from pinscrew.robot.robot import Robot
 
 __all__ = ["pair_of"]
 

@@ -22,9 +22,9 @@ from numpy import ndarray
 from pinscrew.engines.base import Answers, CheckedEngine, JointView
 from pinscrew.engines.expansion import Driven, Expansion, read_mimics
 from pinscrew.engines.native import standard_error_to
-from pinscrew.errors import EngineError, UnsupportedError
-from pinscrew.robot import UNIVERSE, Robot
-from pinscrew.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
+from pinscrew.ground.errors import EngineError, UnsupportedError
+from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
+from pinscrew.robot.robot import UNIVERSE, Robot
 
 __all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Pinocchio"]
 

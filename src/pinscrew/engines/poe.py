@@ -29,9 +29,9 @@ from pinscrew.engines._lanes import (
     turned_back,
 )
 from pinscrew.engines.base import Answers, CheckedEngine, JointView
-from pinscrew.mechanism import JointMotion
-from pinscrew.robot import Robot
-from pinscrew.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.robot.mechanism import JointMotion
+from pinscrew.robot.robot import Robot
 
 __all__ = ["PoE"]
 

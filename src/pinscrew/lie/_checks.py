@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.errors import InputError
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 
 __all__ = [
     "read",

@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = [
     "axis_angle",

@@ -21,8 +21,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie import _checks, _series, so3
-from pinscrew.typing import ArrayLike, FloatArray
 
 __all__ = [
     "ad",

@@ -19,8 +19,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie import _checks, _series
-from pinscrew.typing import ArrayLike, FloatArray
 
 __all__ = [
     "ad",

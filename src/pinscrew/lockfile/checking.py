@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from pinscrew.description.packages import is_file
-from pinscrew.errors import DescriptionError
-from pinscrew.loading import load
+from pinscrew.ground.errors import DescriptionError
 from pinscrew.lockfile.reading import Lock, read_lock
 from pinscrew.lockfile.writing import fingerprint
-from pinscrew.robot import Robot
+from pinscrew.robot.loading import load
+from pinscrew.robot.robot import Robot
 
 if TYPE_CHECKING:
     from pinscrew.changes.model import Changes

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from pinscrew.description.model import JointType, Limits, Mimic
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["SCHEMA", "Document", "LockedJoint"]
 

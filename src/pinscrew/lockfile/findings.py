@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pinscrew.findings.model import Finding, Level
-from pinscrew.findings.troubles import expanded
-from pinscrew.words import one_line
+from pinscrew.ground.words import one_line
+from pinscrew.reporting.model import Finding, Level
+from pinscrew.reporting.troubles import expanded
 
 if TYPE_CHECKING:
     from pinscrew.changes.model import Change

@@ -12,10 +12,10 @@ from typing import Any, Final, NoReturn
 import numpy as np
 
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES, JointType, Limits, Mimic, read_only
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lockfile.document import SCHEMA, Document, LockedJoint
-from pinscrew.robot import FLOATING_JOINT, UNIVERSE
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE
 
 __all__ = ["parse"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from pinscrew.description.packages import is_file
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 
 __all__ = ["SUFFIXES", "below", "beside", "is_lock"]
 

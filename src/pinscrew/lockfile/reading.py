@@ -10,12 +10,12 @@ import numpy as np
 from pinscrew.description import markup
 from pinscrew.description.model import Description, Joint, Limits, drivers
 from pinscrew.description.packages import is_file
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.lockfile import parsing
 from pinscrew.lockfile.document import Document, LockedJoint
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Lock", "read", "read_lock"]
 

@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 
 from pinscrew.description.model import SCALAR_TYPES, Joint
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lockfile.document import Document, LockedJoint
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["document", "fingerprint", "text"]
 

@@ -18,9 +18,9 @@ import numpy as np
 import numpy.typing as npt
 
 from pinscrew.engines.base import Engine
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.motion.freedoms import Freedoms, Task, task_rows
-from pinscrew.typing import FloatArray
 
 __all__ = ["Descent", "Lanes"]
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.track import Track
-from pinscrew.typing import FloatArray
 
 __all__ = ["document", "to_csv", "to_npz"]
 

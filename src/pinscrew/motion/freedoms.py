@@ -9,12 +9,12 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from pinscrew.counts import whole
-from pinscrew.errors import InputError
+from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie._checks import read
-from pinscrew.mechanism import JointMotion
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.robot.mechanism import JointMotion
+from pinscrew.robot.robot import Robot
 
 __all__ = ["TASKS", "TURN", "Freedoms", "Task", "freedoms", "task_rows"]
 

@@ -9,17 +9,17 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from pinscrew import manifold
-from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
-from pinscrew.errors import InputError
+from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion import schemes
 from pinscrew.motion.profile import Profile
 from pinscrew.motion.schemes import Scheme
 from pinscrew.motion.trajectory import Drift, Trajectory
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.robot import manifold
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Rates", "integrate", "times"]
 

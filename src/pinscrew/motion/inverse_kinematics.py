@@ -11,13 +11,13 @@ import numpy.typing as npt
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.pair import pair_of
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie import se3, so3
 from pinscrew.lie._checks import read, require_bottom_row, require_finite, require_rotation
 from pinscrew.motion.descent import Descent
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["TOLERANCE", "Solution", "ik"]
 

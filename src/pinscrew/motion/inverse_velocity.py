@@ -8,9 +8,9 @@ from typing import Final, Literal, TypeAlias, get_args
 import numpy as np
 import numpy.typing as npt
 
-from pinscrew.errors import InputError
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["InverseVelocity", "Method", "inverse_velocity", "rate_bounds"]
 

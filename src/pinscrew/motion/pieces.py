@@ -11,11 +11,11 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from pinscrew import expressions
-from pinscrew.errors import DescriptionError, InputError
-from pinscrew.expressions import Expression
+from pinscrew.ground import expressions
+from pinscrew.ground.errors import DescriptionError, InputError
+from pinscrew.ground.expressions import Expression
+from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.profile import Profile
-from pinscrew.typing import FloatArray
 
 __all__ = ["Piece", "Pieces", "Place"]
 

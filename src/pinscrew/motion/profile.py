@@ -10,9 +10,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from pinscrew.errors import InputError, UnknownNameError
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.ground.errors import InputError, UnknownNameError
+from pinscrew.ground.typing import ArrayLike, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Between", "Profile"]
 

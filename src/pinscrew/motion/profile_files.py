@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Final
 
 from pinscrew.description import catalogue, markup
 from pinscrew.description.packages import is_file
-from pinscrew.errors import InputError, UnknownNameError
+from pinscrew.ground.errors import InputError, UnknownNameError
 from pinscrew.motion.pieces import Piece, Pieces, Place, expression
 from pinscrew.motion.profile import Between, Profile
 from pinscrew.motion.table import Table, check_between
-from pinscrew.robot import Robot
+from pinscrew.robot.robot import Robot
 
 if TYPE_CHECKING:
     import yaml
 
-    from pinscrew.expressions import Expression
+    from pinscrew.ground.expressions import Expression
 
 __all__ = ["ASSIGNMENT", "named", "read"]
 

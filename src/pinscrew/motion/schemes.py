@@ -12,13 +12,13 @@ from typing import Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from pinscrew import manifold
 from pinscrew.description.model import SCALAR_TYPES
 from pinscrew.engines.base import Engine
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot import manifold
+from pinscrew.robot.robot import Robot
 
 __all__ = ["SCHEMES", "Scheme", "check", "coordinate_steps", "coordinates", "poses"]
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion.freedoms import TURN, Freedoms, Task, freedoms
 from pinscrew.motion.singularity import TOLERANCE, ScaledJacobian, Singularity
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["find_singularities"]
 

@@ -22,12 +22,12 @@ import numpy as np
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie._checks import read, require_finite
+from pinscrew.lie.screw import Screw
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
-from pinscrew.robot import Robot
-from pinscrew.screw import Screw
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["TOLERANCE", "ScaledJacobian", "Singularity", "classify_singularity"]
 

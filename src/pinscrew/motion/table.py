@@ -7,9 +7,9 @@ from typing import get_args
 
 import numpy as np
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion.profile import Between, Profile
-from pinscrew.typing import ArrayLike, FloatArray
 
 __all__ = ["Table", "check_between"]
 

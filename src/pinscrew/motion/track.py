@@ -11,15 +11,15 @@ import numpy as np
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion.integration import Rates, integrate
 from pinscrew.motion.inverse_velocity import InverseVelocity, Method, inverse_velocity
 from pinscrew.motion.profile import Between, Profile
 from pinscrew.motion.profile_files import ASSIGNMENT, named
 from pinscrew.motion.schemes import Scheme
 from pinscrew.motion.trajectory import Trajectory
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["STAGES", "Track", "track"]
 

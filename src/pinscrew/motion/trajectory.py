@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import so3
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Drift", "Trajectory"]
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final
 import pytest
 
 if TYPE_CHECKING:
-    from pinscrew.robot import Robot
+    from pinscrew.robot.robot import Robot
 
 __all__ = ["assert_same_mechanism", "pinscrew_robot", "pytest_addoption", "pytest_configure"]
 

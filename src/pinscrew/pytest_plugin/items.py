@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 
 import pytest
 
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
 from pinscrew.pytest_plugin.subject import TROUBLE, Subject, joint_lines
 
 __all__ = ["CheckItem", "LoadItem", "LockItem", "RobotItem"]

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from pinscrew.description import catalogue
-from pinscrew.loading import load
-from pinscrew.robot import Robot
+from pinscrew.robot.loading import load
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Robots", "difference"]
 

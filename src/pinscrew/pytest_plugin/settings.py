@@ -12,7 +12,7 @@ from typing import Any, Final, NoReturn
 
 import pytest
 
-from pinscrew.words import brief, one_line
+from pinscrew.ground.words import brief, one_line
 
 __all__ = ["Listed", "Settings", "read"]
 

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Final
 
 from pinscrew.description import markup
-from pinscrew.errors import PinscrewError, PinscrewWarning
-from pinscrew.loading import load
+from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 from pinscrew.pytest_plugin.settings import Listed, Settings
-from pinscrew.robot import Robot
+from pinscrew.robot.loading import load
+from pinscrew.robot.robot import Robot
 from pinscrew.verification import formats
 from pinscrew.verification.report import Check, Report
 from pinscrew.verification.run import TOLERANCE, verify

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pinscrew.engines.base import Answers
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.lie import se3
-from pinscrew.robot import Robot
-from pinscrew.typing import KINDS, FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.verification.configurations import Configurations
 from pinscrew.verification.report import Check, Place
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Final
 
 from pinscrew.engines.base import Answers
-from pinscrew.engines.batch import Batch
 from pinscrew.engines.compiled import can_compile
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.engines.compiled.batch import Batch
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.verification.comparison import Worst, jacobian_error, pose_error
 
 __all__ = ["MANY", "CompiledChecks", "check_names"]

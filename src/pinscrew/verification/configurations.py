@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Configurations", "angles", "configurations", "effective_limits", "sizes"]
 

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from pinscrew.description.model import Joint
 from pinscrew.engines.base import Answers, Engine, JointView
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.verification import structure
 from pinscrew.verification.configurations import sizes
 from pinscrew.verification.report import Check

@@ -16,10 +16,10 @@ from typing import Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.manifold import integrate
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.manifold import integrate
+from pinscrew.robot.robot import Robot
 from pinscrew.verification.comparison import Worst, jacobian_error
 from pinscrew.verification.configurations import angles
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pinscrew.findings.model import Finding
-from pinscrew.findings.troubles import expanded
+from pinscrew.ground.words import one_line
+from pinscrew.reporting.model import Finding
+from pinscrew.reporting.troubles import expanded
 from pinscrew.verification.formats import failures
-from pinscrew.words import one_line
 
 if TYPE_CHECKING:
     from pinscrew.description.model import Description

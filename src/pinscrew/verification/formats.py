@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from pinscrew.errors import PinscrewError
-from pinscrew.findings import junit
-from pinscrew.findings.markdown import cell
+from pinscrew.ground.errors import PinscrewError
+from pinscrew.ground.words import one_line
+from pinscrew.reporting import junit
+from pinscrew.reporting.markdown import cell
 from pinscrew.verification.report import Check, Report
-from pinscrew.words import one_line
 
 __all__ = [
     "SCHEMA",

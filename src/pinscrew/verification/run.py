@@ -8,11 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
 from pinscrew.engines.pair import pair_of
-from pinscrew.errors import InputError
-from pinscrew.robot import Robot
+from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import InputError
+from pinscrew.robot.robot import Robot
 from pinscrew.verification import comparison, compiled, diagnosis, differences, structure
 from pinscrew.verification.configurations import Configurations, configurations
 from pinscrew.verification.report import Check, Report

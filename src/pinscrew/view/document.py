@@ -11,7 +11,7 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from pinscrew.typing import FloatArray, JacobianKind
+from pinscrew.ground.typing import FloatArray, JacobianKind
 from pinscrew.view import scene
 from pinscrew.view.mesh_files import MeshPart
 from pinscrew.view.model import Body, Model

@@ -6,8 +6,8 @@ import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from pinscrew import files
-from pinscrew.errors import InputError, MissingExtraError
+from pinscrew.ground import files
+from pinscrew.ground.errors import InputError, MissingExtraError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

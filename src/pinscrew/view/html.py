@@ -11,7 +11,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Final
 
-from pinscrew.errors import MissingExtraError
+from pinscrew.ground.errors import MissingExtraError
 from pinscrew.view.document import Json, to_text
 
 __all__ = ["page", "viewer_script"]

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from pinscrew.description.packages import Packages
 from pinscrew.description.visuals import Color, Visual
-from pinscrew.errors import DescriptionError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["Mesh", "MeshPart", "load"]
 

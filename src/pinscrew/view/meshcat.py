@@ -16,10 +16,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from pinscrew import files
-from pinscrew.errors import InputError
-from pinscrew.robot import Robot
-from pinscrew.typing import KINDS, ArrayLike, FloatArray, KindLike
+from pinscrew.ground import files
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, KindLike
+from pinscrew.robot.robot import Robot
 from pinscrew.view import html, png
 from pinscrew.view.document import DEFAULT_DRAW, Animation, State, document
 from pinscrew.view.model import Model

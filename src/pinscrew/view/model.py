@@ -10,10 +10,10 @@ import numpy as np
 
 from pinscrew.description.visuals import DEFAULT_COLOR, Looks, Visual
 from pinscrew.engines.poe import PoE
-from pinscrew.errors import AmbiguousTipError
+from pinscrew.ground.errors import AmbiguousTipError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.view import twists
 from pinscrew.view.mesh_files import Mesh, MeshPart
 from pinscrew.view.shapes import COLORS, Group, Placed, Shape, stretch

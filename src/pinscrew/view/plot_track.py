@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.track import Track
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 from pinscrew.view import figures
 
 if TYPE_CHECKING:

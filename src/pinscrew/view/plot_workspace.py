@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.errors import InputError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.view import figures
 from pinscrew.workspace.density import density, dimensions
 from pinscrew.workspace.measures import Measures, unit

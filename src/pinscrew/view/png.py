@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
-from pinscrew.errors import ViewError
+from pinscrew.ground.errors import ViewError
 
 __all__ = ["BROWSERS", "find_browser", "picture"]
 

@@ -12,10 +12,10 @@ import numpy as np
 
 from pinscrew.description import visuals
 from pinscrew.description.packages import Packages
-from pinscrew.errors import InputError
-from pinscrew.manifold import quaternion_starts
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray, KindLike, jacobian_kind
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray, KindLike, jacobian_kind
+from pinscrew.robot.manifold import quaternion_starts
+from pinscrew.robot.robot import Robot
 from pinscrew.view import html, mesh_files, png, scene
 from pinscrew.view.document import DEFAULT_DRAW, State, document
 from pinscrew.view.model import Model

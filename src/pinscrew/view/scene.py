@@ -10,8 +10,8 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.errors import InputError
-from pinscrew.typing import ArrayLike, FloatArray
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.view import twists
 from pinscrew.view.model import Model, displacement, samples
 from pinscrew.view.shapes import COLORS, Drawable, Group, Placed, Scene, Shape

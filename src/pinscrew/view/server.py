@@ -18,7 +18,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, Final, TypeVar
 
-from pinscrew.errors import ViewError
+from pinscrew.ground.errors import ViewError
 
 __all__ = ["HOST", "PORT", "Server"]
 

@@ -13,7 +13,7 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from pinscrew.description.visuals import Color
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["COLORS", "GROUPS", "Drawable", "Group", "Placed", "Scene", "Shape"]
 

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from pinscrew.description.visuals import Color
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 from pinscrew.view.shapes import Placed, Shape, stretch
 
 __all__ = ["Line", "arrow", "circle", "ellipsoid", "frame_along", "line_of", "screw"]

@@ -15,13 +15,13 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew import files
 from pinscrew.engines.base import Engine
-from pinscrew.engines.batch import Batch
 from pinscrew.engines.compiled import can_compile
-from pinscrew.errors import InputError
+from pinscrew.engines.compiled.batch import Batch
+from pinscrew.ground import files
+from pinscrew.ground.errors import InputError
 from pinscrew.lockfile.writing import fingerprint
-from pinscrew.robot import Robot
+from pinscrew.robot.robot import Robot
 from pinscrew.workspace.axes import Axis
 
 __all__ = ["Arrays", "Metadata", "load", "provenance", "save"]

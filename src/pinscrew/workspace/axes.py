@@ -11,9 +11,9 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from pinscrew.errors import InputError, MissingExtraError, UnknownNameError
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import InputError, MissingExtraError, UnknownNameError
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["Axis", "Ranges", "Steps", "axes", "grid_counts", "grid_points", "sobol", "spread"]
 

@@ -13,8 +13,8 @@ from typing import Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
-from pinscrew.engines.batch import Batch
-from pinscrew.typing import FloatArray
+from pinscrew.engines.compiled.batch import Batch
+from pinscrew.ground.typing import FloatArray
 from pinscrew.workspace.axes import Axis, spread
 from pinscrew.workspace.measures import manipulability
 from pinscrew.workspace.voxels import Voxels, direction_bits, voxel_keys

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["from_reference", "other_reference"]
 

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.errors import MissingExtraError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import MissingExtraError
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["density", "dimensions"]
 

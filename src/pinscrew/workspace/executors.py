@@ -8,7 +8,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Final
 
-from pinscrew.errors import EngineError, MissingExtraError
+from pinscrew.ground.errors import EngineError, MissingExtraError
 
 __all__ = ["dask_executor"]
 

@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
-from pinscrew.typing import FloatArray
+from pinscrew.ground.typing import FloatArray
 from pinscrew.workspace.axes import Axis
 
 __all__ = ["Measures", "generic_ranks", "manipulability", "unit"]

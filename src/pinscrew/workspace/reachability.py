@@ -15,12 +15,12 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
-from pinscrew.engines.batch import for_many
-from pinscrew.errors import EngineError, InputError
-from pinscrew.processes import job_count, process_pool
-from pinscrew.robot import Robot
+from pinscrew.engines.compiled.batch import for_many
+from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import EngineError, InputError
+from pinscrew.ground.processes import job_count, process_pool
+from pinscrew.robot.robot import Robot
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import Ranges, axes
 from pinscrew.workspace.blocks import BLOCK, Task, block_count, run_pickled

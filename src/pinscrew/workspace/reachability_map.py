@@ -9,8 +9,8 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.errors import InputError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.workspace import archive
 from pinscrew.workspace.blocks import block_count
 from pinscrew.workspace.voxels import DIRECTIONS, Voxels, approach_directions

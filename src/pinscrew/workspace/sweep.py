@@ -10,13 +10,13 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.counts import whole
 from pinscrew.engines.base import Engine
-from pinscrew.engines.batch import for_many
-from pinscrew.errors import InputError
-from pinscrew.memory import free_bytes
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray, KindLike, jacobian_kind
+from pinscrew.engines.compiled.batch import for_many
+from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.memory import free_bytes
+from pinscrew.ground.typing import FloatArray, KindLike, jacobian_kind
+from pinscrew.robot.robot import Robot
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import Ranges, Steps, axes, grid_counts, grid_points, sobol
 from pinscrew.workspace.measures import Measures, generic_ranks
@@ -118,7 +118,7 @@ def sweep(
         frame: a link's name; by default the robot's tip.
         ranges: lower and upper end by coordinate (rad or m), instead of its limits. An angle without limits has a
             full turn from -π, of which a grid leaves the end out.
-        kind: keep the Jacobians, of this kind: ``"spatial"``, ``"body"`` or ``"hybrid"``; see `pinscrew.typing`.
+        kind: keep the Jacobians, of this kind: ``"spatial"``, ``"body"`` or ``"hybrid"``; see `pinscrew.ground.typing`.
         engine: whom to ask; by default `Batch`, or `PoE` where it can't be compiled.
 
     Raises:

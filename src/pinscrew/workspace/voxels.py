@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.errors import InputError
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
 
 __all__ = ["DIRECTIONS", "Gathering", "Voxels", "approach_directions", "direction_bits", "voxel_keys"]
 

@@ -10,7 +10,7 @@ import warnings
 from functools import lru_cache
 from importlib.util import find_spec
 
-from pinscrew.errors import PinscrewWarning
+from pinscrew.ground.errors import PinscrewWarning
 
 __all__ = ["can_compile", "say_slow"]
 

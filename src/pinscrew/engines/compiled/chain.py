@@ -16,10 +16,10 @@ from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
+from pinscrew.ground.typing import FloatArray, JacobianKind
 from pinscrew.lie import se3
-from pinscrew.mechanism import JointMotion
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray, JacobianKind
+from pinscrew.robot.mechanism import JointMotion
+from pinscrew.robot.robot import Robot
 
 __all__ = ["LARGEST_ANGLE", "Chain", "Part", "Question", "Step", "chain_to"]
 

@@ -12,8 +12,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from pinscrew.engines.compiled.chain import Chain, Step
+from pinscrew.ground.typing import FloatArray, JacobianKind
 from pinscrew.lie import se3
-from pinscrew.typing import FloatArray, JacobianKind
 
 __all__ = ["Move", "Number", "Pose", "Twist", "columns", "manipulability", "pose"]
 

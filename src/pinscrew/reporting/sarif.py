@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
 
-from pinscrew.findings.model import Finding, help_text
-from pinscrew.findings.paths import below
+from pinscrew.reporting.model import Finding, help_text
+from pinscrew.reporting.paths import below
 
 __all__ = ["to_sarif"]
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie._checks import read, require_finite
-from pinscrew.typing import ArrayLike, FloatArray
 
 __all__ = ["Screw"]
 

@@ -12,9 +12,9 @@ from xml.etree import ElementTree as ET
 import jsonschema
 import pytest
 
-from pinscrew.errors import DescriptionError, EngineError, PinscrewWarning, UnknownNameError, XacroError
-from pinscrew.findings import Finding, from_error, from_warning, to_annotations, to_junit, to_markdown, to_sarif
-from pinscrew.findings.model import help_text
+from pinscrew.ground.errors import DescriptionError, EngineError, PinscrewWarning, UnknownNameError, XacroError
+from pinscrew.reporting import Finding, from_error, from_warning, to_annotations, to_junit, to_markdown, to_sarif
+from pinscrew.reporting.model import help_text
 
 SCHEMA = Path(__file__).resolve().parents[1] / "data" / "sarif-2.1.0-rtm.5.json"
 VALIDATOR = jsonschema.Draft4Validator(

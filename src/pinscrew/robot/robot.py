@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Final, Literal
@@ -10,10 +9,11 @@ from typing import Final, Literal
 import numpy as np
 
 from pinscrew.description.model import Description, Joint, Rebuilt
-from pinscrew.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
+from pinscrew.ground.displays import Displayed
+from pinscrew.ground.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.mechanism import Mechanism, derive
-from pinscrew.typing import FloatArray
+from pinscrew.robot.mechanism import Mechanism, derive
 
 __all__ = ["FLOATING_JOINT", "UNIVERSE", "Robot"]
 
@@ -24,7 +24,7 @@ FLOATING_JOINT: Final = "root_joint"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Robot(Rebuilt):
+class Robot(Rebuilt, Displayed):
     """A robot at zero, derived from its description alone. Make one with `pinscrew.load` or `from_description`.
 
     Coordinates ``q`` stand in the order of `joint_names`, which is tree order: parents before children, depth
@@ -74,12 +74,6 @@ class Robot(Rebuilt):
 
     def __repr__(self) -> str:
         return f"<Robot {self.name!r}: {self.nq} coordinates, {len(self.frame_names)} frames, base {self.base!r}>"
-
-    def _repr_html_(self) -> str:
-        """The robot to look at, for Jupyter: see `pinscrew.show`."""
-        # Looks are layer 5 and import this module; a notebook asks the object itself, so they are found by name here.
-        html: str = importlib.import_module("pinscrew.view.notebook").html(self)
-        return html
 
     @property
     def base(self) -> str:

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pinscrew.description.model import SCALAR_TYPES, Description, Joint, drivers, read_only
-from pinscrew.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.typing import FloatArray
 
 __all__ = ["Coordinates", "JointMotion", "Mechanism", "derive"]
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any, Final
 
-from pinscrew.errors import UnknownNameError
+from pinscrew.ground.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from pinscrew.engines.base import Engine
-    from pinscrew.robot import Robot
+    from pinscrew.robot.robot import Robot
 
 __all__ = ["WITNESSES", "require", "witness"]
 
 WITNESSES: Final = {
-    "mujoco": ("pinscrew.engines.mujoco", "MuJoCo"),
-    "roboticstoolbox": ("pinscrew.engines.roboticstoolbox", "RoboticsToolbox"),
+    "mujoco": ("pinscrew.witnesses.mujoco", "MuJoCo"),
+    "roboticstoolbox": ("pinscrew.witnesses.roboticstoolbox", "RoboticsToolbox"),
 }
 """The module and class of each witness; none is needed, and each is an extra."""
 

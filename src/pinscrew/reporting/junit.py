@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 from xml.etree import ElementTree as ET
 
-from pinscrew.findings.model import RULES, Finding
+from pinscrew.reporting.model import RULES, Finding
 
 __all__ = ["Case", "Problem", "Suite", "document", "to_junit"]
 

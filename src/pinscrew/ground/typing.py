@@ -16,7 +16,7 @@ from typing import Any, Final, Literal, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 __all__ = ["KINDS", "ArrayLike", "FloatArray", "JacobianKind", "KindLike", "jacobian_kind"]
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from pinscrew.engines.base import JointView
 from pinscrew.engines.hybrid import HybridEngine, Told, drive, joint_names, plain_urdf
-from pinscrew.errors import EngineError, MissingExtraError, UnsupportedError
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import EngineError, MissingExtraError, UnsupportedError
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["RoboticsToolbox", "library"]
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 __all__ = ["Expression", "number"]
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from pinscrew.findings.model import Finding, Level
-from pinscrew.findings.paths import below
+from pinscrew.reporting.model import Finding, Level
+from pinscrew.reporting.paths import below
 
 __all__ = ["to_annotations"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from numbers import Real
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 __all__ = ["whole"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias
 
-from pinscrew.words import brief, one_line
+from pinscrew.ground.words import brief, one_line
 
 __all__ = ["RULES", "Finding", "Level", "help_text"]
 
@@ -53,7 +53,7 @@ def help_text(rule: str) -> str:
     Raises:
         KeyError: if nothing explains it: add it to `RULES`.
     """
-    from pinscrew.error_codes import ERRORS, WARNINGS
+    from pinscrew.ground.error_codes import ERRORS, WARNINGS
 
     if rule in RULES:
         return RULES[rule]

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from pinscrew.engines.compiled import can_compile, say_slow
 from pinscrew.engines.compiled.chain import LARGEST_ANGLE, Part, Question, chain_to
-from pinscrew.engines.outputs import Results, outputs, thread_count
+from pinscrew.engines.compiled.outputs import Results, outputs, thread_count
 from pinscrew.engines.poe import PoE
-from pinscrew.errors import InputError
-from pinscrew.robot import Robot
-from pinscrew.typing import ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
+from pinscrew.robot.robot import Robot
 
 if TYPE_CHECKING:
     from pinscrew.engines.compiled.kernel import Kernel

@@ -10,9 +10,9 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.errors import InputError
-from pinscrew.memory import free_bytes
-from pinscrew.processes import cores
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.memory import free_bytes
+from pinscrew.ground.processes import cores
 
 __all__ = ["Results", "outputs", "thread_count"]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from pinscrew.description import catalogue, expand, markup, urdf
 from pinscrew.description.packages import Packages
-from pinscrew.errors import DescriptionError
-from pinscrew.robot import Robot
+from pinscrew.ground.errors import DescriptionError
+from pinscrew.robot.robot import Robot
 
 __all__ = ["load"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pinscrew.findings.model import Finding
-from pinscrew.findings.paths import below
-from pinscrew.words import one_line
+from pinscrew.ground.words import one_line
+from pinscrew.reporting.model import Finding
+from pinscrew.reporting.paths import below
 
 __all__ = ["cell", "to_markdown"]
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 
-from pinscrew.counts import whole
+from pinscrew.ground.counts import whole
 
 __all__ = ["cores", "job_count", "process_pool"]
 

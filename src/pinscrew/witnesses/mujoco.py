@@ -19,9 +19,9 @@ import numpy as np
 
 from pinscrew.engines.base import JointView
 from pinscrew.engines.hybrid import HybridEngine, Told, drive, joint_names, plain_urdf
-from pinscrew.errors import EngineError, MissingExtraError
-from pinscrew.robot import FLOATING_JOINT, UNIVERSE, Robot
-from pinscrew.typing import FloatArray
+from pinscrew.ground.errors import EngineError, MissingExtraError
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE, Robot
 
 __all__ = ["MuJoCo", "library"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from pinscrew.errors import InputError
+from pinscrew.ground.errors import InputError
 
 __all__ = ["append", "write"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.robot import Robot
-from pinscrew.typing import FloatArray
+from pinscrew.robot.robot import Robot
 
 __all__ = ["integrate", "quaternion_starts"]
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from pinscrew.description.expand import is_xacro
 from pinscrew.description.packages import is_file
-from pinscrew.errors import LONGEST, DescriptionError, PinscrewError, PinscrewWarning, XacroError
-from pinscrew.findings.model import Finding
-from pinscrew.words import brief, one_line
+from pinscrew.ground.errors import LONGEST, DescriptionError, PinscrewError, PinscrewWarning, XacroError
+from pinscrew.ground.words import brief, one_line
+from pinscrew.reporting.model import Finding
 
 __all__ = ["expanded", "from_error", "from_warning"]
 
