@@ -20,7 +20,7 @@ INTRODUCTION = """\
 Every error that pinscrew raises on purpose is a `pinscrew.PinscrewError`. Its message says *where: what; what to do*,
 and its parts are attributes. `code` is a stable word for the kind of mistake. On the command line such an error is one
 line on standard error, a mistake in the command itself comes with how it is used, and the exit status is 2. The classes
-are in `pinscrew.ground.errors`.
+are in `pinscrew.errors`.
 
 This page is written by `scripts/errors_page.py`.
 

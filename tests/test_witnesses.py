@@ -20,11 +20,12 @@ from broken import ROBOT, TEXT, Altered, edited
 from command_line import ok, refused, run
 from layering import MODULES, imports, kinematics_used, reachable
 from pinscrew.description import catalogue
-from pinscrew.engines import hybrid, witness
+from pinscrew.engines import hybrid
 from pinscrew.engines.base import Engine
 from pinscrew.ground.errors import EngineError, MissingExtraError, PinscrewWarning, UnknownNameError, UnsupportedError
 from pinscrew.ground.typing import KINDS
 from pinscrew.verification.report import Report
+from pinscrew.witnesses import witness
 
 BOTH: Final = ("mujoco", "roboticstoolbox")
 NAMES: Final = [entry.name for entry in catalogue.bundled()]
@@ -282,12 +283,12 @@ def test_names_are_names(name: str) -> None:
 
 def test_independence() -> None:
     """They use neither our screws nor our other engines, and each library is in its own module."""
-    for module in ("engines.hybrid", "engines.mujoco", "engines.roboticstoolbox"):
+    for module in ("engines.hybrid", "witnesses.mujoco", "witnesses.roboticstoolbox"):
         assert kinematics_used(MODULES[module]) == set()
         assert not any(one.target.startswith("pinscrew.lie") for one in imports(MODULES[module]))
         assert not {"pinscrew.engines.poe", "pinscrew.engines.pinocchio", "pinocchio"} & reachable(module)
-    assert "mujoco" in reachable("engines.mujoco")
-    assert "roboticstoolbox" in reachable("engines.roboticstoolbox")
+    assert "mujoco" in reachable("witnesses.mujoco")
+    assert "roboticstoolbox" in reachable("witnesses.roboticstoolbox")
 
 
 # ------------------------------------------------------------------------------------------- refusals
