@@ -15,7 +15,8 @@ from broken import ROBOT, edited, pair
 from pinscrew.ground.errors import DescriptionError
 from pinscrew.verification import formats
 from pinscrew.verification.formats import Unverified
-from pinscrew.verification.report import Check, Place, Report
+from pinscrew.verification.outcome import Check, ErrorPlace
+from pinscrew.verification.report import Report
 from pinscrew.verification.run import verify
 
 GOOD = verify(ROBOT, 2)
@@ -240,7 +241,7 @@ def test_failures() -> None:
     lines = formats.failures(BAD)
     assert len(lines) == len(BAD.failed)
     assert formats.failures(GOOD) == []
-    check = Check("x", 0.5, 1e-12, Place("tool", "j", "random 3", (0.0,)))
+    check = Check("x", 0.5, 1e-12, ErrorPlace("tool", "j", "random 3", (0.0,)))
     assert formats.failures(report(check)) == [
         "x: error 5.0e-01 above 1.0e-12, largest at frame tool, joint j, random 3"
     ]

@@ -21,7 +21,7 @@ from pinscrew.ground.displays import DRAWN_BY
 
 if TYPE_CHECKING:
     from pinscrew import lie
-    from pinscrew.changes.model import Changes
+    from pinscrew.changes.changes import Changes
     from pinscrew.changes.run import diff
     from pinscrew.derivation.run import derive
     from pinscrew.engines.base import Engine
@@ -90,7 +90,7 @@ __version__ = "0.1.0"
 # Where each public name lives: parsers and engines are heavy, and load when first used.
 _HOMES = {
     "Batch": "pinscrew.engines.compiled.batch",
-    "Changes": "pinscrew.changes.model",
+    "Changes": "pinscrew.changes.changes",
     "Engine": "pinscrew.engines.base",
     "InverseVelocity": "pinscrew.motion.inverse_velocity",
     "Pinocchio": "pinscrew.engines.pinocchio",

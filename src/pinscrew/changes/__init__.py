@@ -1,1 +1,1 @@
-"""Layer 4: what an edit to a robot's description changed, as an engineer says it."""
+"""What an edit to a robot's description changed, as an engineer says it."""

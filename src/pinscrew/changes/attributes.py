@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from pinscrew.changes.geometry import Near, kind
 from pinscrew.changes.matching import Step
-from pinscrew.changes.model import Change
+from pinscrew.changes.outcome import Change
 from pinscrew.changes.placement import Placement
 from pinscrew.changes.wording import degrees, interval, millimetres, number
 from pinscrew.description.model import Description, Joint, Mimic, drivers

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from pinscrew.changes.geometry import turned
-from pinscrew.changes.model import Displacement, Place
+from pinscrew.changes.outcome import Displacement, TipPlace
 from pinscrew.engines.poe import PoE
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
@@ -69,7 +69,7 @@ def largest(a: Robot, b: Robot, columns: Sequence[int], tips: Sequence[tuple[str
             at = int(error.argmax())
             if error[at] > best[i][0]:
                 best[i] = (float(error[at]), tip_a, at)
-    places = [Place(tip, _q(a, q_a[at], tip)) for _, tip, at in best]
+    places = [TipPlace(tip, _q(a, q_a[at], tip)) for _, tip, at in best]
     return Displacement(best[0][0], places[0], best[1][0], places[1])
 
 

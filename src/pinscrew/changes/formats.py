@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict
 from typing import Final
 
-from pinscrew.changes.model import Change, Changes, Place
+from pinscrew.changes.outcome import Change, ChangesData, TipPlace
 from pinscrew.changes.wording import degrees, millimetres, number
 from pinscrew.ground.words import one_line
 from pinscrew.reporting.markdown import cell
@@ -18,7 +18,7 @@ ROUNDING: Final = 1e-11
 """A displacement (m or rad) of tips that is told as none: what is left of the 12 digits in a lock, say."""
 
 
-def summary(changes: Changes) -> str:
+def summary(changes: ChangesData) -> str:
     """One line: what was compared, and the outcome."""
     count = len(changes.changes)
     outcome = "the motion is the same" if changes.same else f"{count} change{'s' * (count > 1)}"
@@ -27,7 +27,7 @@ def summary(changes: Changes) -> str:
     return f"{one_line(changes.a)} → {one_line(changes.b)}: {outcome}{remarked}"
 
 
-def to_text(changes: Changes) -> str:
+def to_text(changes: ChangesData) -> str:
     """The summary, and a line for each change and note."""
     lines = [summary(changes)]
     lines += [f"  {_told(change)}" for change in changes.changes]
@@ -35,7 +35,7 @@ def to_text(changes: Changes) -> str:
     return "\n".join([*lines, *(f"  {line}" for line in _apart(changes))])
 
 
-def to_json(changes: Changes) -> str:
+def to_json(changes: ChangesData) -> str:
     """The changes as JSON, schema `SCHEMA`."""
     found = changes.displacement
     document = {
@@ -56,7 +56,7 @@ def to_json(changes: Changes) -> str:
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def to_markdown(changes: Changes) -> str:
+def to_markdown(changes: ChangesData) -> str:
     """The changes as Markdown: a heading, and a list of changes and one of notes."""
     lines = [f"### {cell(summary(changes))}", ""]
     lines += [f"- **{change.kind}**: {cell(_told(change))}" for change in changes.changes]
@@ -72,7 +72,7 @@ def _told(change: Change) -> str:
     return f"{one_line(change.words)}{where}"
 
 
-def _apart(changes: Changes) -> list[str]:
+def _apart(changes: ChangesData) -> list[str]:
     """How far apart the tips come, if anything changed."""
     found = changes.displacement
     if changes.same:
@@ -87,6 +87,6 @@ def _apart(changes: Changes) -> list[str]:
     return lines
 
 
-def _place(place: Place) -> str:
+def _place(place: TipPlace) -> str:
     q = ", ".join(f"{name}={number(value)}" for name, value in place.q.items())
     return one_line(f"{place.frame!r} at {q}" if q else repr(place.frame))

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from pinscrew.changes.attributes import attributes, driven, opposite, renames
+from pinscrew.changes.changes import Changes
 from pinscrew.changes.distance import columns, largest
 from pinscrew.changes.geometry import Features, Near, Poses, link_steps
 from pinscrew.changes.matching import Matching, match
-from pinscrew.changes.model import Change, Changes
+from pinscrew.changes.outcome import Change
 from pinscrew.changes.placement import placement
 from pinscrew.changes.walk import walk
 from pinscrew.ground.errors import InputError

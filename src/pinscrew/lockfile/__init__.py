@@ -1,4 +1,4 @@
-"""Layer 4: lock files, which keep a robot's mechanism as a small text, so that an edit of its file can be judged.
+"""Lock files, which keep a robot's mechanism as a small text, so that an edit of its file can be judged.
 
 `fingerprint` and `text` write, `read` and `check` read.
 """

@@ -15,7 +15,7 @@ from pinscrew.robot.loading import load
 from pinscrew.robot.robot import Robot
 
 if TYPE_CHECKING:
-    from pinscrew.changes.model import Changes
+    from pinscrew.changes.changes import Changes
 
 __all__ = ["TOLERANCE", "Checked", "check", "reload"]
 

@@ -9,7 +9,7 @@ from pinscrew.reporting.model import Finding, Level
 from pinscrew.reporting.troubles import expanded
 
 if TYPE_CHECKING:
-    from pinscrew.changes.model import Change
+    from pinscrew.changes.outcome import Change
     from pinscrew.lockfile.checking import Checked
 
 __all__ = ["from_checked"]

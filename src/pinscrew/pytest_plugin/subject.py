@@ -14,7 +14,8 @@ from pinscrew.pytest_plugin.settings import Listed, Settings
 from pinscrew.robot.loading import load
 from pinscrew.robot.robot import Robot
 from pinscrew.verification import formats
-from pinscrew.verification.report import Check, Report
+from pinscrew.verification.outcome import Check
+from pinscrew.verification.report import Report
 from pinscrew.verification.run import TOLERANCE, verify
 
 __all__ = ["TROUBLE", "Subject", "joint_lines"]

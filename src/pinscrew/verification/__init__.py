@@ -1,1 +1,1 @@
-"""Layer 4: do the engines agree? `run.verify` asks, `report.Report` tells."""
+"""Do the engines agree? `run.verify` asks, `report.Report` tells."""

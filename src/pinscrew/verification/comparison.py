@@ -11,7 +11,7 @@ from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.lie import se3
 from pinscrew.robot.robot import Robot
 from pinscrew.verification.configurations import Configurations
-from pinscrew.verification.report import Check, Place
+from pinscrew.verification.outcome import Check, ErrorPlace
 
 __all__ = [
     "Worst",
@@ -71,7 +71,7 @@ class Worst:
         joint = robot.mechanism.motions[above].joint.name if above >= 0 else ""
         if len(self.at) > 2:
             joint = robot.velocity_names[self.at[2]]
-        place = Place(frame, joint, where.labels[configuration], tuple(map(float, where.q[configuration])))
+        place = ErrorPlace(frame, joint, where.labels[configuration], tuple(map(float, where.q[configuration])))
         return Check(self.name, self.error, self.tolerance, place)
 
 

@@ -23,7 +23,7 @@ from pinscrew.lie import se3, so3
 from pinscrew.robot.robot import Robot
 from pinscrew.verification import structure
 from pinscrew.verification.configurations import sizes
-from pinscrew.verification.report import Check
+from pinscrew.verification.outcome import Check
 from pinscrew.verification.structure import Difference
 
 __all__ = ["diagnose"]

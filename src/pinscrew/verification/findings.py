@@ -11,12 +11,12 @@ from pinscrew.verification.formats import failures
 
 if TYPE_CHECKING:
     from pinscrew.description.model import Description
-    from pinscrew.verification.report import Report
+    from pinscrew.verification.outcome import ReportData
 
 __all__ = ["from_report"]
 
 
-def from_report(report: Report, description: Description) -> list[Finding]:
+def from_report(report: ReportData, description: Description) -> list[Finding]:
     """A finding for each line of a report's diagnosis; none if the engines agree.
 
     Args:

@@ -12,7 +12,7 @@ from pinscrew.ground.errors import PinscrewError
 from pinscrew.ground.words import one_line
 from pinscrew.reporting import junit
 from pinscrew.reporting.markdown import cell
-from pinscrew.verification.report import Check, Report
+from pinscrew.verification.outcome import Check, ReportData
 
 __all__ = [
     "SCHEMA",
@@ -41,7 +41,7 @@ class Unverified:
     error: PinscrewError
 
 
-def summary(report: Report) -> str:
+def summary(report: ReportData) -> str:
     """One line: what was compared, and the outcome."""
     outcome = "agree" if report.ok else "DISAGREE"
     return (
@@ -61,7 +61,7 @@ def place(check: Check) -> str:
     return one_line(", ".join(part for part in parts if part))
 
 
-def to_text(report: Report) -> str:
+def to_text(report: ReportData) -> str:
     """A table, with the diagnosis below it."""
     rows = [("check", "error", "tolerance", "", "largest at")]
     rows += [
@@ -74,14 +74,14 @@ def to_text(report: Report) -> str:
     return "\n".join(lines)
 
 
-def details(report: Report) -> list[str]:
+def details(report: ReportData) -> list[str]:
     """What a failed report has to say beside its table."""
     lines = [*(remark for check in report.failed for remark in check.remarks), *report.diagnosis]
     lines += [f"{c.name}: largest at q = {list(c.place.q)}" for c in report.failed if c.place.q][:1]
     return list(dict.fromkeys(lines))  # remarks that explain a failure are in the diagnosis too
 
 
-def failures(report: Report) -> list[str]:
+def failures(report: ReportData) -> list[str]:
     """One line for each failed check."""
     return [f"{c.name}: error {c.error:.1e} above {c.tolerance:.1e}{_largest_at(c)}" for c in report.failed]
 
@@ -90,7 +90,7 @@ def _largest_at(check: Check) -> str:
     return f", largest at {place(check)}" if place(check) else ""
 
 
-def to_json(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
+def to_json(reports: Sequence[ReportData], errors: Sequence[Unverified] = ()) -> str:
     """The reports as JSON, schema `SCHEMA`. An infinite error (NaN in an answer) is the string ``"inf"``."""
     packages = ["pinscrew", "pin", "yourdfpy", "numpy"]
     packages += sorted({_WITNESSES[name] for report in reports for name in report.engines if name in _WITNESSES})
@@ -105,7 +105,7 @@ def to_json(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def _as_data(report: Report) -> dict[str, Any]:
+def _as_data(report: ReportData) -> dict[str, Any]:
     return {
         "robot": report.robot,
         "file": report.file,
@@ -137,7 +137,7 @@ def _as_data(report: Report) -> dict[str, Any]:
     }
 
 
-def to_junit(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
+def to_junit(reports: Sequence[ReportData], errors: Sequence[Unverified] = ()) -> str:
     """The reports as JUnit XML: a suite for each robot, a case for each check."""
     suites = [junit.Suite(_title(report), [_case(report, check) for check in report.checks]) for report in reports]
     for one in errors:
@@ -146,13 +146,13 @@ def to_junit(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> st
     return junit.document("pinscrew verify", suites)
 
 
-def _title(report: Report) -> str:
+def _title(report: ReportData) -> str:
     """The robot, and the engines where they are not those that `verify` compares unless told otherwise."""
     robot, engines = report.robot, " and ".join(report.engines)
     return robot if engines == "PoE and Pinocchio" else f"{robot} ({engines})"
 
 
-def _case(report: Report, check: Check) -> junit.Case:
+def _case(report: ReportData, check: Check) -> junit.Case:
     if check.ok:
         return junit.Case(check.name)
     message = f"error {check.error:.3e} above {check.tolerance:.3e}{_largest_at(check)}"
@@ -160,7 +160,7 @@ def _case(report: Report, check: Check) -> junit.Case:
     return junit.Case(check.name, junit.Problem("failure", message, "disagreement", "\n".join(lines)))
 
 
-def to_markdown(reports: Sequence[Report], errors: Sequence[Unverified] = ()) -> str:
+def to_markdown(reports: Sequence[ReportData], errors: Sequence[Unverified] = ()) -> str:
     """The reports as Markdown: a line and a table for each."""
     lines: list[str] = []
     for report in reports:

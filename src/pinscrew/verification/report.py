@@ -1,136 +1,30 @@
-"""What a comparison found."""
+"""What `pinscrew.verify` answers: the outcome, with the formats that it can be written in."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-__all__ = ["Check", "Place", "Report"]
+from pinscrew.verification import formats
+from pinscrew.verification.outcome import ReportData
 
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where the largest error of a check is.
-
-    Attributes:
-        frame: the frame, or ``""``.
-        joint: the velocity whose column it is in, or the joint that moves the frame.
-        configuration: which configuration, such as ``"random 17"`` (with the report's seed).
-        q: its coordinates.
-    """
-
-    frame: str = ""
-    joint: str = ""
-    configuration: str = ""
-    q: tuple[float, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Check:
-    """One comparison over all frames and configurations.
-
-    Attributes:
-        name: what was compared.
-        error: the largest error; metres were divided by the robot's size where that is above one.
-        tolerance: what it may be.
-        place: where that was.
-        remarks: differences in words, for what is not a number.
-    """
-
-    name: str
-    error: float
-    tolerance: float
-    place: Place = Place()
-    remarks: tuple[str, ...] = ()
-
-    @property
-    def ok(self) -> bool:
-        """Whether the error is within the tolerance; NaN is not."""
-        return self.error <= self.tolerance
+__all__ = ["Report"]
 
 
 @dataclass(frozen=True)
-class Report:
-    """The outcome of `verify` for one robot. ``print`` shows it as a table.
-
-    Attributes:
-        robot: the robot's name.
-        file: its file.
-        arguments: its xacro arguments.
-        engines: names of the two engines.
-        frames: how many frames were compared.
-        samples: random configurations within limits.
-        configurations: configurations in all.
-        seed: of the random configurations.
-        tolerance: what counts as rounding.
-        reach: the robot's size (m).
-        checks: one per comparison.
-        diagnosis: where the robots of the engines differ first, in words; empty if they agree.
-        blamed: the joint that each line of the diagnosis is about, or ``""``.
-    """
-
-    robot: str
-    file: str
-    arguments: Mapping[str, str]
-    engines: tuple[str, str]
-    frames: int
-    samples: int
-    configurations: int
-    seed: int
-    tolerance: float
-    reach: float
-    checks: tuple[Check, ...]
-    diagnosis: tuple[str, ...] = field(default=())
-    blamed: tuple[str, ...] = field(default=())
-
-    @property
-    def ok(self) -> bool:
-        """Whether every check passed."""
-        return all(check.ok for check in self.checks)
-
-    @property
-    def failed(self) -> tuple[Check, ...]:
-        """The checks that did not pass."""
-        return tuple(check for check in self.checks if not check.ok)
-
-    @property
-    def worst(self) -> Check:
-        """The check with the largest error for its tolerance."""
-        return max(self.checks, key=_badness)
-
-    @property
-    def largest_difference(self) -> float:
-        """The largest scaled error of the checks that hold to rounding: all but structure and differences."""
-        return max((c.error for c in self.checks if c.tolerance == self.tolerance), default=math.nan)
+class Report(ReportData):
+    """The outcome of `verify` for one robot; `ReportData` lists what it holds. ``print`` shows it as a table."""
 
     def __str__(self) -> str:
-        from pinscrew.verification.formats import to_text
-
-        return to_text(self)
+        return formats.to_text(self)
 
     def to_json(self) -> str:
         """The report as JSON, schema ``pinscrew.verify/1``."""
-        from pinscrew.verification.formats import to_json
-
-        return to_json([self])
+        return formats.to_json([self])
 
     def to_junit(self) -> str:
         """The report as JUnit XML: a test suite with a test case per check."""
-        from pinscrew.verification.formats import to_junit
-
-        return to_junit([self])
+        return formats.to_junit([self])
 
     def to_markdown(self) -> str:
         """The report as a Markdown table."""
-        from pinscrew.verification.formats import to_markdown
-
-        return to_markdown([self])
-
-
-def _badness(check: Check) -> float:
-    if math.isnan(check.error):  # worse than anything
-        return math.inf
-    if check.tolerance > 0.0:
-        return check.error / check.tolerance
-    return math.inf if check.error > 0.0 else 0.0
+        return formats.to_markdown([self])

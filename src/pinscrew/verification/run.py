@@ -15,7 +15,8 @@ from pinscrew.ground.errors import InputError
 from pinscrew.robot.robot import Robot
 from pinscrew.verification import comparison, compiled, diagnosis, differences, structure
 from pinscrew.verification.configurations import Configurations, configurations
-from pinscrew.verification.report import Check, Report
+from pinscrew.verification.outcome import Check
+from pinscrew.verification.report import Report
 
 __all__ = ["TOLERANCE", "check_names", "verify"]
 

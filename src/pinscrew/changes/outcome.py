@@ -1,11 +1,11 @@
-"""What `pinscrew.diff` answers: changes of the motion, notes on the rest, and how far the tips are apart."""
+"""What `pinscrew.diff` finds, as plain data: changes of the motion, notes on the rest, how far the tips are apart."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["Change", "Changes", "Displacement", "Place"]
+__all__ = ["Change", "ChangesData", "Displacement", "TipPlace"]
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Place:
+class TipPlace:
     """Where two robots are farthest apart.
 
     Attributes:
@@ -56,14 +56,14 @@ class Displacement:
     """
 
     length: float
-    length_at: Place
+    length_at: TipPlace
     angle: float
-    angle_at: Place
+    angle_at: TipPlace
 
 
 @dataclass(frozen=True)
-class Changes:
-    """What `diff` found between two robots. ``print`` shows it as text.
+class ChangesData:
+    """What `diff` found between two robots.
 
     Attributes:
         a: name of the first robot.
@@ -84,20 +84,3 @@ class Changes:
     def same(self) -> bool:
         """Whether both robots move alike: no changes."""
         return not self.changes
-
-    def __str__(self) -> str:
-        from pinscrew.changes import formats
-
-        return formats.to_text(self)
-
-    def to_json(self) -> str:
-        """The changes as JSON, schema ``pinscrew.diff/1``."""
-        from pinscrew.changes import formats
-
-        return formats.to_json(self)
-
-    def to_markdown(self) -> str:
-        """The changes as Markdown: a heading and lists."""
-        from pinscrew.changes import formats
-
-        return formats.to_markdown(self)
