@@ -18,6 +18,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from pinscrew.ground.displays import DRAWN_BY
+from pinscrew.ground.version import __version__
 
 if TYPE_CHECKING:
     from pinscrew import lie
@@ -84,8 +85,6 @@ __all__ = [
     "verify",
     "witness",
 ]
-
-__version__ = "0.1.0"
 
 # Where each public name lives: parsers and engines are heavy, and load when first used.
 _HOMES = {

@@ -162,6 +162,7 @@ ERRORS: Final[dict[str, str]] = {
 }
 
 WARNINGS: Final[dict[str, str]] = {
+    "cache": "The folder of compiled kernels, or a file in it, is not used: others may write to it, or it is a link.",
     "no-compiler": "`Batch` computes with numpy, since llvmlite (extra `fast`) is not installed.",
     "axis-normalised": "A joint's axis was not a unit vector, and was normalised.",
     "limit-zero": "A limit lacks `lower` or `upper`, which URDF takes as 0.",
