@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ import pytest
 from layering import (
     FLOORS,
     MODULES,
+    SOURCE,
     circles,
     floor,
     graph,
@@ -36,6 +38,16 @@ def test_every_module_has_a_layer() -> None:
 def test_the_house_stays_small() -> None:
     assert len(FLOORS) <= 13
     assert len({unit(module) for module in MODULES}) <= 24
+
+
+def test_the_page_shows_the_floors() -> None:
+    page = (SOURCE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (\d+) \| ([^|]+) \|", page, re.MULTILINE)
+    shown = {
+        int(number): {"" if name == "pinscrew" else name for name in re.findall(r"`(.+?)`", names)}
+        for number, names in rows
+    }
+    assert shown == dict(enumerate(FLOORS))
 
 
 @pytest.mark.parametrize("module", MODULES)

@@ -8,7 +8,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
+import pinscrew as ps
 from pinscrew.description.catalogue import bundled, robots_directory
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -59,3 +61,8 @@ def test_verify_from_the_wheel(wheel: Path, tmp_path: Path) -> None:
 
 def test_robots_of_a_checkout() -> None:
     assert robots_directory() == ROOT / "robots"
+
+
+def test_the_citation_names_the_version() -> None:
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == ps.__version__

@@ -17,16 +17,21 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 ACTION = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
 STEPS = {step["name"]: step for step in ACTION["runs"]["steps"] if "run" in step}
-SCHEMAS = {
-    "vendor.github-actions": "action.yml",
-    "vendor.github-workflows": "examples/robot_repository/.github/workflows/kinematics.yml",
-    "vendor.gitlab-ci": "examples/robot_repository/.gitlab-ci.yml",
-}
+SCHEMAS = [
+    ("vendor.github-actions", "action.yml"),
+    ("vendor.github-workflows", "examples/robot_repository/.github/workflows/kinematics.yml"),
+    ("vendor.gitlab-ci", "examples/robot_repository/.gitlab-ci.yml"),
+    ("vendor.github-workflows", ".github/workflows/ci.yml"),
+    ("vendor.citation-file-format", "CITATION.cff"),
+    ("vendor.github-issue-config", ".github/ISSUE_TEMPLATE/config.yml"),
+    ("vendor.github-issue-forms", ".github/ISSUE_TEMPLATE/wrong_answer.yml"),
+    ("vendor.github-issue-forms", ".github/ISSUE_TEMPLATE/wish.yml"),
+]
 
 
-@pytest.mark.parametrize("schema", SCHEMAS)
-def test_valid(schema: str) -> None:
-    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", schema, str(ROOT / SCHEMAS[schema])]
+@pytest.mark.parametrize(("schema", "file"), SCHEMAS)
+def test_valid(schema: str, file: str) -> None:
+    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", schema, str(ROOT / file)]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
 
