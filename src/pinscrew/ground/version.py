@@ -1,9 +1,5 @@
-"""The version of pinscrew."""
-
-from __future__ import annotations
-
-from typing import Final
+"""The version of pinscrew; the build reads it from this line, so it has no annotation."""
 
 __all__ = ["__version__"]
 
-__version__: Final = "0.1.0"
+__version__ = "0.1.0"
