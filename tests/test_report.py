@@ -13,15 +13,18 @@ import pinscrew as ps
 import urdfs
 from broken import ROBOT, edited, pair
 from pinscrew.ground.errors import DescriptionError
-from pinscrew.verification import formats
-from pinscrew.verification.formats import Unverified
+from pinscrew.reporting import to_json, to_junit, to_markdown
+from pinscrew.verification.document import Attempt, document
 from pinscrew.verification.outcome import Check, ErrorPlace
 from pinscrew.verification.report import Report
 from pinscrew.verification.run import verify
+from pinscrew.verification.wording import details, failures
 
 GOOD = verify(ROBOT, 2)
 BAD = verify(ROBOT, 2, engines=pair(1, edited(("0.4 0 0", "0.41 0 0"), ('offset="0.25"', 'offset="0.3"'))))
-ERROR = Unverified("arm <1>.urdf", DescriptionError("no-file", 'there is no "such" file & folder', file="arm <1>.urdf"))
+NO_FILE = DescriptionError("no-file", 'there is no "such" file & folder', file="arm <1>.urdf")
+ERROR = Attempt("arm <1>.urdf", errors=(NO_FILE,))
+ALL = document([Attempt("good", (GOOD,)), Attempt("bad", (BAD,)), ERROR])
 NAMES = ["a|b", "a<b>&c", "a`b`", "a\nb", "a\"b'c", "a]]>b", "*a_b*", "[a](b)", "a\\b", "ä ω 機", "<!-- a -->"]
 
 
@@ -128,13 +131,13 @@ def test_json() -> None:
 
 
 def test_json_of_failures() -> None:
-    document = loaded(formats.to_json([GOOD, BAD], [ERROR]))
-    assert document["ok"] is False
-    assert [robot["ok"] for robot in document["robots"]] == [True, False]
-    assert document["robots"][1]["diagnosis"] == list(BAD.diagnosis)
-    assert document["robots"][1]["checks"][0]["remarks"] == list(BAD.checks[0].remarks)
-    assert document["errors"] == [{"robot": ERROR.robot, "code": "no-file", "message": str(ERROR.error)}]
-    assert loaded(formats.to_json([GOOD], [ERROR]))["ok"] is False
+    data = loaded(to_json(ALL))
+    assert data["ok"] is False
+    assert [robot["ok"] for robot in data["robots"]] == [True, False]
+    assert data["robots"][1]["diagnosis"] == list(BAD.diagnosis)
+    assert data["robots"][1]["checks"][0]["remarks"] == list(BAD.checks[0].remarks)
+    assert data["errors"] == [{"robot": ERROR.robot, "code": "no-file", "message": str(NO_FILE)}]
+    assert loaded(to_json(document([Attempt("good", (GOOD,)), ERROR])))["ok"] is False
 
 
 @pytest.mark.parametrize("error", [math.inf, math.nan])
@@ -151,7 +154,7 @@ def junit(text: str) -> ET.Element:
 
 
 def test_junit() -> None:
-    root = junit(formats.to_junit([GOOD, BAD], [ERROR]))
+    root = junit(to_junit(ALL))
     checks, failures = len(GOOD.checks) + len(BAD.checks), len(BAD.failed)
     assert root.tag == "testsuites"
     assert [int(root.get(name)) for name in ("tests", "failures", "errors")] == [checks + 1, failures, 1]
@@ -167,7 +170,7 @@ def test_junit() -> None:
         assert failure.get("message").startswith(f"error {check.error:.3e} above {check.tolerance:.3e}")
         assert failure.text.splitlines() == [*BAD.diagnosis, f"q = {list(check.place.q)}"]
     (problem,) = error.findall("./testcase/error")
-    assert (problem.get("type"), problem.get("message")) == ("no-file", str(ERROR.error))
+    assert (problem.get("type"), problem.get("message")) == ("no-file", str(NO_FILE))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -183,7 +186,7 @@ def test_junit_with_any_name(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["a\x00b", "a\x1bb", "a\udcffb", "a\ufffeb"])
 def test_junit_leaves_out_what_xml_cannot_hold(name: str) -> None:
-    (suite,) = junit(formats.to_junit([], [Unverified(name, DescriptionError("no-file", "none", file=name))]))
+    (suite,) = junit(to_junit(document([Attempt(name, errors=(DescriptionError("no-file", "none", file=name),))])))
     assert suite.get("name") == "a\ufffdb"
 
 
@@ -205,7 +208,7 @@ def test_markdown(given: Report, outcome: str) -> None:
     assert [row[1] for row in rows] == [f"{check.error:.1e}" for check in given.checks]
     bullets = [line for line in rest[len(given.checks) :] if line]
     assert all(line.startswith("- ") for line in bullets)
-    assert len(bullets) == len(formats.details(given))
+    assert len(bullets) == len(details(given))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -226,11 +229,11 @@ def test_markdown_with_any_name(name: str) -> None:
 def test_text_with_any_name(name: str) -> None:
     """Names with line breaks don't break the table."""
     failed = named(name)
-    assert len(str(failed).splitlines()) == 2 + len(failed.checks) + len(formats.details(failed))
+    assert len(str(failed).splitlines()) == 2 + len(failed.checks) + len(details(failed))
 
 
 def test_markdown_of_several() -> None:
-    text = formats.to_markdown([GOOD, BAD], [ERROR])
+    text = to_markdown(ALL)
     headings = [line for line in text.splitlines() if line.startswith("### ")]
     assert len(headings) == 3
     assert headings[2] == r"### arm \<1\>.urdf: could not be verified"
@@ -238,10 +241,8 @@ def test_markdown_of_several() -> None:
 
 
 def test_failures() -> None:
-    lines = formats.failures(BAD)
+    lines = failures(BAD)
     assert len(lines) == len(BAD.failed)
-    assert formats.failures(GOOD) == []
+    assert failures(GOOD) == []
     check = Check("x", 0.5, 1e-12, ErrorPlace("tool", "j", "random 3", (0.0,)))
-    assert formats.failures(report(check)) == [
-        "x: error 5.0e-01 above 1.0e-12, largest at frame tool, joint j, random 3"
-    ]
+    assert failures(report(check)) == ["x: error 5.0e-01 above 1.0e-12, largest at frame tool, joint j, random 3"]

@@ -125,6 +125,16 @@ def test_a_revision(repository: Path, word: str) -> None:
 
 
 @needs_git
+def test_findings_about_a_revision_are_in_the_working_tree(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A forge shows lines of the files that were checked out."""
+    monkeypatch.delenv("GITHUB_WORKSPACE", raising=False)
+    assert "::error file=arm.urdf,line=1," in run("diff", "HEAD~1:arm.urdf", "HEAD:arm.urdf", "--github").err
+    monkeypatch.chdir(repository / "cell")
+    monkeypatch.setenv("GITHUB_WORKSPACE", str(repository))
+    assert "::error file=arm.urdf,line=1," in run("diff", "HEAD~1:arm.urdf", "HEAD:../arm.urdf", "--github").err
+
+
+@needs_git
 def test_from_a_folder_of_the_repository(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(repository / "cell")
     for word in ("HEAD~1:../arm.urdf", "HEAD~1:arm.urdf"):

@@ -43,7 +43,7 @@ def write(path: Path, **options: object) -> Path:
     return lock
 
 
-def checked(path: Path, text: str) -> lockfile.Checked:
+def checked(path: Path, text: str) -> lockfile.LockCheck:
     assert text != path.read_text(encoding="utf-8")
     path.write_text(text, encoding="utf-8")
     return lockfile.check(f"{path}.lock")

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import urdfs
 from pinscrew import lockfile
 from pinscrew.ground.errors import DescriptionError
-from pinscrew.lockfile import document, parsing
+from pinscrew.lockfile import content, parsing
 
 ROBOT = urdfs.load(
     urdfs.robot(
@@ -245,4 +245,4 @@ def test_one_line_for_each_thing() -> None:
     assert sum('"limits": {' in line for line in lines) == 3
     assert sum('"mimic": {"joint": "a", "multiplier": 0.5, "offset": 0.1}' in line for line in lines) == 1
     assert sum(re.fullmatch(r"        \[[^,]+(, [^,]+){3}\],?", line) is not None for line in lines) == 4 * 6
-    assert f'"schema": "{document.SCHEMA}"' in lines[1]
+    assert f'"schema": "{content.SCHEMA}"' in lines[1]

@@ -136,7 +136,7 @@ def test_fingerprints_come_back(text: str, floating_base: bool) -> None:
 
     path = Path("small.urdf.lock")
     lock = reading.Lock(path, parsing.parse(lockfile.text(robot), path))
-    assert lock.document.hash == lockfile.fingerprint(robot)
+    assert lock.content.hash == lockfile.fingerprint(robot)
     again = lock.robot()
     assert lockfile.fingerprint(again) == lockfile.fingerprint(robot)
 

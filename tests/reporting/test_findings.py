@@ -13,8 +13,19 @@ import jsonschema
 import pytest
 
 from pinscrew.ground.errors import DescriptionError, EngineError, PinscrewWarning, UnknownNameError, XacroError
-from pinscrew.reporting import Finding, from_error, from_warning, to_annotations, to_junit, to_markdown, to_sarif
-from pinscrew.reporting.model import help_text
+from pinscrew.reporting import (
+    Document,
+    Finding,
+    Section,
+    cases_of,
+    from_error,
+    from_warning,
+    to_annotations,
+    to_junit,
+    to_markdown,
+    to_sarif,
+)
+from pinscrew.reporting.findings import help_text
 
 SCHEMA = Path(__file__).resolve().parents[1] / "data" / "sarif-2.1.0-rtm.5.json"
 VALIDATOR = jsonschema.Draft4Validator(
@@ -39,6 +50,10 @@ FOUND = [
 ]
 
 
+def document(*findings: Finding) -> Document:
+    return Document("pinscrew verify", findings=findings, overview="all of it")
+
+
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The working directory of each test; none of them is in a job of GitHub's."""
@@ -52,7 +67,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def sarif(*findings: Finding) -> Any:
     """The one run of a log, which must be valid."""
-    log = json.loads(to_sarif(findings, "pinscrew verify"), parse_constant=pytest.fail)
+    log = json.loads(to_sarif(document(*findings)), parse_constant=pytest.fail)
     VALIDATOR.validate(log)
     (run,) = log["runs"]
     return run
@@ -65,11 +80,11 @@ def location(run: Any) -> dict[str, str]:
 
 
 def test_the_schema_refuses_what_is_no_sarif() -> None:
-    log = json.loads(to_sarif(FOUND, "x"))
+    log = json.loads(to_sarif(document(*FOUND)))
     assert VALIDATOR.is_valid(log)
     log["runs"][0]["results"][0]["level"] = "fatal"
     assert not VALIDATOR.is_valid(log)
-    log = json.loads(to_sarif(FOUND, "x"))
+    log = json.loads(to_sarif(document(*FOUND)))
     log["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["region"]["startLine"] = 0
     assert not VALIDATOR.is_valid(log)
 
@@ -127,7 +142,7 @@ def test_paths_start_at_the_top_of_a_checkout(folder: Path, monkeypatch: pytest.
     assert location(sarif(finding))["uri"] == "arm.urdf"
     monkeypatch.setenv("GITHUB_WORKSPACE", str(folder))
     assert location(sarif(finding))["uri"] == "sub/arm.urdf"
-    assert to_annotations([finding]).startswith("::error file=sub/arm.urdf,")
+    assert to_annotations(document(finding)).startswith("::error file=sub/arm.urdf,")
     monkeypatch.setenv("GITHUB_WORKSPACE", "/nowhere")
     assert location(sarif(finding))["uri"] == "arm.urdf"
 
@@ -168,7 +183,7 @@ def parsed(line: str) -> tuple[str, dict[str, str], str]:
 
 
 def test_annotations() -> None:
-    assert to_annotations(FOUND).splitlines() == [
+    assert to_annotations(document(*FOUND)).splitlines() == [
         "::error file=arm.urdf,line=7,title=pinscrew%3A disagreement::arm: joint 'j': its axis is flipped",
         "::warning file=arm.urdf,line=9,title=pinscrew%3A axis-normalised::arm: the axis is 2 long",
         "::notice file=arm.urdf,title=pinscrew%3A placed-anew::link 'tool' is placed anew",
@@ -179,7 +194,7 @@ def test_annotations() -> None:
 @pytest.mark.parametrize("name", [*ODD, "a::b", "a\n::error::b", "a%0Ab", "a\r\nb,title=c"])
 def test_annotations_of_any_name(name: str) -> None:
     """Nothing in a name or message ends a property, the message or the command."""
-    written = to_annotations([Finding("no-file", "error", name, name, 3)])
+    written = to_annotations(document(Finding("no-file", "error", name, name, 3)))
     assert written.count("\n") == 1
     command, properties, message = parsed(written.removesuffix("\n"))
     assert (command, message) == ("error", name)
@@ -190,7 +205,9 @@ def test_annotations_of_any_name(name: str) -> None:
 
 
 def test_junit() -> None:
-    text = to_junit([*FOUND, Finding("moved", "error", "it moved", "b.urdf", 2)], ["arm", "good"], "pinscrew lock")
+    found = {"arm": FOUND[:3], "good": [], "am": FOUND[3:], "b.urdf": [Finding("moved", "error", "it moved", "b", 2)]}
+    sections = tuple(Section(name, name, cases=cases_of(findings)) for name, findings in found.items())
+    text = to_junit(Document("pinscrew lock", sections=sections))
     root = ET.fromstring(text.encode())  # noqa: S314 (our own)
     assert [suite.get("name") for suite in root] == ["arm", "good", "am", "b.urdf"]
     assert [root.get(name) for name in ("tests", "failures", "errors")] == ["4", "2", "1"]
@@ -205,8 +222,9 @@ def test_junit() -> None:
 
 @pytest.mark.parametrize("name", ODD)
 def test_markdown_keeps_its_columns(name: str) -> None:
-    assert to_markdown([]) == ""
-    lines = to_markdown([Finding("no-file", "error", f"{name}\n{name}", name, 3, name), *FOUND]).splitlines()
+    assert to_markdown(document()) == "### all of it\n"
+    written = to_markdown(document(Finding("no-file", "error", f"{name}\n{name}", name, 3, name), *FOUND))
+    lines = written.splitlines()[2:]
     assert len(lines) == 2 + 1 + len(FOUND)
     rows = [re.split(r"(?<!\\)\|", line) for line in lines]
     assert {len(row) for row in rows} == {7}

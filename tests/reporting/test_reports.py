@@ -9,9 +9,11 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+import pinscrew as ps
 import urdfs
 from broken import Altered
 from command_line import ok, refused, run
+from pinscrew import lockfile
 from pinscrew.description.catalogue import find
 from pinscrew.engines.pinocchio import Pinocchio
 
@@ -161,3 +163,64 @@ def test_a_lock_that_cannot_be_checked_is_an_error(arm: Path) -> None:
 def test_writing_a_lock_reports_nothing(arm: Path, option: tuple[str, ...]) -> None:
     assert refused("lock", arm, *option) == "there is something to report with --check only"
     assert not Path("arm.urdf.lock").exists()
+
+
+# --------------------------------------------------------------------------------------------------- diff
+
+EVERY = ("--github", "--sarif", "out.sarif", "--junit", "out.xml", "--markdown", "out.md")
+
+
+def test_a_change_is_told_at_its_joint(arm: Path) -> None:
+    """``diff`` reports as ``lock --check`` does: errors for changes, notes for the rest, at b's lines."""
+    Path("before.urdf").write_text(ARM)
+    assert "::" not in ok("diff", "before.urdf", arm, *EVERY).err
+    assert results("out.sarif") == []
+    root = ET.parse("out.xml").getroot()  # noqa: S314 (our own)
+    assert [(suite.get("name"), suite.get("failures")) for suite in root] == [("before.urdf → arm.urdf", "0")]
+    arm.write_text(ARM.replace('xyz="0.4 0 0"', 'xyz="0.41 0 0"').replace('velocity="1"', 'velocity="2"', 1))
+    done = run("diff", "before.urdf", arm, "--json", *EVERY)
+    assert done.status == 1
+    assert json.loads(done.out)["schema"] == "pinscrew.diff/1", "standard output is JSON alone"
+    lines = {part: line_of(ARM, f'joint name="{part}"') for part in ("j1", "j2")}
+    moved, kept = results("out.sarif")
+    assert moved[:4] == ("motion-changed", "error", "arm.urdf", lines["j2"])
+    assert kept[:4] == ("motion-kept", "note", "arm.urdf", lines["j1"])
+    annotation = f"::error file=arm.urdf,line={lines['j2']},title=pinscrew%3A motion-changed::{moved[4]}"
+    assert annotation in done.err.splitlines()
+    assert "::notice file=arm.urdf" in done.err
+    root = ET.parse("out.xml").getroot()  # noqa: S314 (our own)
+    assert (root.get("name"), root.get("tests"), root.get("failures")) == ("pinscrew diff", "1", "1")
+    (failure,) = root.iter("failure")
+    assert failure.get("type") == "motion-changed"
+    assert Path("out.md").read_text().startswith("### before.urdf → arm.urdf: 1 change, 1 note\n")
+
+
+def test_a_diff_that_cannot_be_made_is_an_error(arm: Path) -> None:
+    done = run("diff", arm, "nowhere.urdf", *EVERY)
+    assert (done.status, done.out) == (2, "")
+    assert [one[:3] for one in results("out.sarif")] == [("no-file", "error", "nowhere.urdf")]
+    root = ET.parse("out.xml").getroot()  # noqa: S314 (our own)
+    assert (root.get("failures"), root.get("errors")) == ("0", "1")
+    assert "could not be compared" in Path("out.md").read_text()
+    assert "::error file=nowhere.urdf" in done.err
+
+
+# ----------------------------------------------------------------------------------------- every format
+
+
+def test_every_answer_is_a_document_that_every_format_takes(arm: Path) -> None:
+    """A report, changes and a lock's check have the same methods, and no format knows which of them it writes."""
+    robot = ps.load(arm)
+    ok("lock", arm)
+    arm.write_text(ARM.replace('xyz="0.4 0 0"', 'xyz="0.41 0 0"'))
+    moved = ps.load(arm)
+    answers = ps.verify(moved, 1), ps.diff(robot, moved), lockfile.check("arm.urdf.lock")
+    for answer, schema in zip(answers, ("verify/1", "diff/1", "lock-check/1"), strict=True):
+        document = answer.document()
+        assert json.loads(answer.to_json())["schema"] == f"pinscrew.{schema}" == document.data["schema"]
+        assert ET.fromstring(answer.to_junit().encode()).get("name") == document.task  # noqa: S314 (our own)
+        (sarif,) = json.loads(answer.to_sarif())["runs"]
+        assert len(sarif["results"]) == len(document.findings) == answer.to_annotations().count("\n")
+        assert answer.to_markdown().startswith("### ")
+        assert str(answer).startswith(document.sections[0].heading)
+        assert document.ok == (answer is answers[0])

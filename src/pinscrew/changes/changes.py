@@ -1,26 +1,24 @@
-"""What `pinscrew.diff` answers: the changes, with the formats that they can be written in."""
+"""What `pinscrew.diff` answers: the changes, which can be printed and written in every format."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pinscrew.changes import formats
+from pinscrew.changes.document import document
 from pinscrew.changes.outcome import ChangesData
+from pinscrew.reporting.document import Document
+from pinscrew.reporting.documented import Documented
 
 __all__ = ["Changes"]
 
 
 @dataclass(frozen=True)
-class Changes(ChangesData):
-    """What `diff` found between two robots; `ChangesData` lists what it holds. ``print`` shows it as text."""
+class Changes(Documented, ChangesData):
+    """What `diff` found between two robots; `ChangesData` lists what it holds. ``print`` shows it as text.
 
-    def __str__(self) -> str:
-        return formats.to_text(self)
+    Its JSON has the schema ``pinscrew.diff/1``, its Markdown a heading and lists.
+    """
 
-    def to_json(self) -> str:
-        """The changes as JSON, schema ``pinscrew.diff/1``."""
-        return formats.to_json(self)
-
-    def to_markdown(self) -> str:
-        """The changes as Markdown: a heading and lists."""
-        return formats.to_markdown(self)
+    def document(self) -> Document:
+        """The changes in no format yet."""
+        return document(self)

@@ -72,6 +72,7 @@ class ChangesData:
         notes: what changed in the file although the motion is identical.
         displacement: how far apart the tips come; None where the two do not have the same coordinates, or no
             common tip.
+        file: b's file, to which the changes' lines belong.
     """
 
     a: str
@@ -79,6 +80,7 @@ class ChangesData:
     changes: tuple[Change, ...]
     notes: tuple[Change, ...]
     displacement: Displacement | None
+    file: str = ""
 
     @property
     def same(self) -> bool:

@@ -17,7 +17,7 @@ from typing import Any, Final
 
 from pinscrew.ground.errors import InputError, PinscrewError, PinscrewWarning
 
-__all__ = ["is_revision", "taken_out"]
+__all__ = ["is_revision", "taken_out", "working_file"]
 
 _WORD: Final = re.compile(r"([^:]+):(.+)", re.DOTALL)
 _NOT_NEEDED: Final = ("stl", "dae", "obj", "ply", "glb", "png", "jpg", "jpeg", "tga", "zip", "gz", "pdf")
@@ -42,15 +42,7 @@ def taken_out(source: str) -> Iterator[Path]:
     Raises:
         InputError: if there is no git, no repository, no such revision, or no such file in it.
     """
-    found = _WORD.fullmatch(source)
-    if found is None:
-        raise InputError("git", f"{source!r} is not REV:path", remedy="write such as HEAD~1:arm.urdf")
-    revision, path = found.groups()
-    top = Path(_git(Path(), source, "rev-parse", "--show-toplevel").decode().strip())
-    if path.startswith(("./", "../")):
-        prefix = _git(Path(), source, "rev-parse", "--show-prefix").decode().strip()
-        path = posixpath.join(prefix, path)
-    path = posixpath.normpath(path)
+    top, revision, path = _parts(source)
     commit = _commit(top, source, revision)
     if path.startswith(("../", "/")) or _kind(top, source, commit, path) != "blob":
         what = f"there is no file {path!r} in revision {revision!r}"
@@ -66,6 +58,29 @@ def taken_out(source: str) -> Iterator[Path]:
         target.write_bytes(_git(top, source, "cat-file", "blob", f"{commit}:{path}"))
         with _named(f"{root}{os.sep}", f"{revision}:"):
             yield target
+
+
+def working_file(source: str) -> str:
+    """Where the file of ``REV:path`` is in the working tree, if it still is there: what a forge shows lines of.
+
+    Raises:
+        InputError: if there is no git, or no repository.
+    """
+    top, _, path = _parts(source)
+    return os.path.relpath(top / path)
+
+
+def _parts(source: str) -> tuple[Path, str, str]:
+    """The top of the repository, the revision, and the path from the top."""
+    match = _WORD.fullmatch(source)
+    if match is None:
+        raise InputError("git", f"{source!r} is not REV:path", remedy="write such as HEAD~1:arm.urdf")
+    revision, path = match.groups()
+    top = Path(_git(Path(), source, "rev-parse", "--show-toplevel").decode().strip())
+    if path.startswith(("./", "../")):
+        prefix = _git(Path(), source, "rev-parse", "--show-prefix").decode().strip()
+        path = posixpath.join(prefix, path)
+    return top, revision, posixpath.normpath(path)
 
 
 def _commit(top: Path, source: str, revision: str) -> str:

@@ -70,7 +70,7 @@ def diff(a: Robot, b: Robot, *, length: float = 1e-9, angle: float = 1e-9) -> Ch
     places = columns(a, b, matching.joints)
     common = [(x, y) for x, y, _ in tips]
     displacement = None if places is None else largest(a, b, places, common)
-    return Changes(a.name, b.name, tuple(changes), tuple(notes), displacement)
+    return Changes(a.name, b.name, tuple(changes), tuple(notes), displacement, b.description.file)
 
 
 def _whole(a: Robot, b: Robot, matching: Matching) -> list[Change]:

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from pinscrew.cli import arguments, output
+from pinscrew.cli import arguments
+from pinscrew.cli.reports import Wanted, report_options
+from pinscrew.ground.errors import PinscrewError
 
 if TYPE_CHECKING:
+    from pinscrew.reporting.document import Document
     from pinscrew.robot.robot import Robot
 
 __all__ = ["command"]
@@ -32,14 +36,12 @@ __all__ = ["command"]
     type=click.FloatRange(0),
     help="Largest angle that counts as none; by default 5.7e-8, which is 1e-9 rad.",
 )
-@arguments.json_option
-@click.option("--markdown", type=arguments.OUTPUT, help="Write Markdown to this file.")
+@report_options
 def command(
     words: tuple[str, ...],
     tolerance_mm: float,
     tolerance_deg: float | None,
-    as_json: bool,
-    markdown: Path | None,
+    wanted: Wanted,
 ) -> None:
     """Compare the motion of two robots: screws, limits, mimics and the poses of tip frames.
 
@@ -56,12 +58,16 @@ def command(
     named = arguments.robots(words)
     if len(named) != 2:
         raise click.UsageError(f"expected two robots, but got {len(named)}")
-    a, b = (_load(one) for one in named)
+    try:
+        a, b = (_load(one) for one in named)
+    except PinscrewError as error:
+        wanted.write(_failed(named, error))
+        raise
     angle = {} if tolerance_deg is None else {"angle": math.radians(tolerance_deg)}
-    changes = replace(diff(a, b, length=tolerance_mm * 1e-3, **angle), a=_called(named[0]), b=_called(named[1]))
-    if markdown is not None:
-        output.write_file(markdown, changes.to_markdown())
-    click.echo(changes.to_json() if as_json else str(changes))
+    changes = diff(a, b, length=tolerance_mm * 1e-3, **angle)
+    changes = replace(changes, a=_called(named[0]), b=_called(named[1]), file=_file(named[1], changes.file))
+    wanted.write(changes.document())
+    click.echo(changes.to_json() if wanted.as_json else str(changes))
     if not changes.same:
         sys.exit(1)
 
@@ -69,6 +75,20 @@ def command(
 def _called(named: arguments.Named) -> str:
     """A robot as the command line has it."""
     return " ".join([named.source, *(f"{name}:={value}" for name, value in named.arguments.items())])
+
+
+def _failed(named: Sequence[arguments.Named], error: PinscrewError) -> Document:
+    """What the reports tell where the two could not be compared."""
+    from pinscrew.changes.document import failure
+
+    return failure(" → ".join(map(_called, named)), error)
+
+
+def _file(named: arguments.Named, file: str) -> str:
+    """The file that findings are about: for one of a revision, that of the working tree."""
+    from pinscrew.changes import revision
+
+    return revision.working_file(named.source) if revision.is_revision(named.source) else file
 
 
 def _load(named: arguments.Named) -> Robot:

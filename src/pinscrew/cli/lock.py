@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
 import click
 
@@ -17,10 +17,8 @@ from pinscrew.cli.reports import Wanted, report_options
 from pinscrew.ground.errors import DescriptionError, PinscrewError
 
 if TYPE_CHECKING:
-    from pinscrew.lockfile.checking import Checked
+    from pinscrew.lockfile.checking import LockCheck
     from pinscrew.robot.robot import Robot
-
-    _Failure: TypeAlias = tuple[Path, PinscrewError]
 
 __all__ = ["command"]
 
@@ -117,7 +115,7 @@ def _keep_arguments(path: Path, robot: Robot) -> None:
     from pinscrew.lockfile.reading import read_lock
 
     try:
-        held = read_lock(path).document
+        held = read_lock(path).content
     except DescriptionError:  # there is none, or none that could be of use
         return
     ways = (held.arguments, held.floating_base, held.tip)
@@ -142,11 +140,13 @@ def _holds(path: Path, content: str) -> bool:
 
 def _check(words: Sequence[str], wanted: Wanted) -> None:
     from pinscrew.lockfile.checking import check
+    from pinscrew.lockfile.document import document
+    from pinscrew.reporting import to_json, to_text
 
     options = {name: value for name, value in arguments.options().items() if name != "floating_base"}
     paths = _locks(words)
-    checked: list[Checked] = []
-    errors: list[_Failure] = []
+    checked: list[LockCheck] = []
+    errors: list[tuple[Path, PinscrewError]] = []
     with progress("checking", len(paths)) as advance:
         for path in paths:
             try:
@@ -154,14 +154,13 @@ def _check(words: Sequence[str], wanted: Wanted) -> None:
             except PinscrewError as error:
                 errors.append((path, error))
             advance(1, str(path))
-    if wanted.as_json:
-        _print_json(checked, errors)
-    else:
-        _print_lines(checked, len(paths))
+    outcome = document(checked, errors)
+    tried = tuple(section for section in outcome.sections if section.tried)  # errors go to standard error
+    click.echo(to_json(outcome) if wanted.as_json else to_text(replace(outcome, sections=tried)))
     for _, failure in errors:
         click.echo(f"pinscrew: {failure}", err=True)
-    _report(wanted, checked, errors)
-    if not all(one.same for one in checked):
+    wanted.write(outcome)
+    if not all(lock.same for lock in checked):
         sys.exit(1)
     if errors:
         sys.exit(2)
@@ -182,55 +181,3 @@ def _locks(words: Sequence[str]) -> list[Path]:
         what = "there is no .urdf.lock and no .xacro.lock here or below"
         raise DescriptionError("not-locked", what, file=os.curdir, remedy="write some with pinscrew lock FILE")
     return paths
-
-
-def _report(wanted: Wanted, checked: Sequence[Checked], errors: Sequence[_Failure]) -> None:
-    from pinscrew.lockfile.findings import from_checked
-    from pinscrew.reporting import from_error, to_junit, to_markdown
-
-    findings = [found for one in checked for found in from_checked(one)]
-    findings += [from_error(error, str(path)) for path, error in errors]
-    locks = [str(one.lock) for one in checked] + [str(path) for path, _ in errors]
-    same = sum(one.same for one in checked)
-    heading = f"### pinscrew lock: {same} of {len(locks)} mechanisms are those of their locks\n\n"
-    wanted.write(
-        "pinscrew lock",
-        findings,
-        junit=lambda: to_junit(findings, locks, "pinscrew lock"),
-        markdown=lambda: heading + to_markdown(findings),
-    )
-
-
-def _print_lines(checked: Sequence[Checked], asked: int) -> None:
-    """A line for each lock, what moved below it, and how to go on."""
-    for one in checked:
-        click.echo(f"{one.lock}: {'the same' if one.same else 'MOVED'}")
-        if one.changes is not None:
-            for change in one.changes.changes:
-                click.echo(f"  {change.words}")
-            for note in one.changes.notes:
-                click.echo(f"  note: {note.words}")
-    moved = [str(one.lock) for one in checked if not one.same]
-    if moved:
-        click.echo(f"{len(moved)} of {asked} mechanisms moved; if that is meant: pinscrew lock {' '.join(moved)}")
-    else:
-        click.echo(f"{len(checked)} of {asked} mechanisms are those of their locks")
-
-
-def _print_json(checked: Sequence[Checked], errors: Sequence[_Failure]) -> None:
-    rows: list[dict[str, Any]] = []
-    for one in checked:
-        changes = () if one.changes is None else one.changes.changes
-        notes = () if one.changes is None else one.changes.notes
-        rows.append(
-            {
-                "lock": str(one.lock),
-                "file": one.robot.description.file,
-                "same": one.same,
-                "changes": [asdict(change) for change in changes],
-                "notes": [asdict(note) for note in notes],
-            }
-        )
-    failed = [{"lock": str(path), "code": error.code, "message": str(error)} for path, error in errors]
-    ok = not errors and all(one.same for one in checked)
-    output.print_json({"schema": "pinscrew.lock-check/1", "ok": ok, "locks": rows, "errors": failed})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -15,7 +15,7 @@ from pinscrew.cli import arguments, output
 from pinscrew.ground import files
 
 if TYPE_CHECKING:
-    from pinscrew.reporting.model import Finding
+    from pinscrew.reporting.document import Document
 
 __all__ = ["Wanted", "report_options"]
 
@@ -46,35 +46,25 @@ class Wanted:
         """The files that are to be written."""
         return tuple(file for file in (self.junit, self.markdown, self.sarif) if file is not None)
 
-    def write(
-        self, task: str, findings: Sequence[Finding], *, junit: Callable[[], str], markdown: Callable[[], str]
-    ) -> None:
+    def write(self, document: Document) -> None:
         """Write those that are wanted, but for JSON, which each command prints where it prints its table.
 
         Annotations go to standard error, which GitHub reads as well as standard output, so that ``--json`` has the
         latter for itself. They come first: a file that can't be written must not silence them.
 
-        Args:
-            task: what was done, such as ``"pinscrew verify"``.
-            findings: for annotations and SARIF.
-            junit, markdown: make these reports.
-
         Raises:
             InputError: if a file can't be written.
         """
-        from pinscrew.reporting import to_annotations, to_sarif
+        from pinscrew.reporting import to_annotations, to_junit, to_markdown, to_sarif
 
         if self.github:
-            click.echo(to_annotations(findings), err=True, nl=False)
+            click.echo(to_annotations(document), err=True, nl=False)
             summary = os.environ.get(_SUMMARY)
             if summary:
-                files.append(Path(summary), markdown().encode("utf-8", errors="backslashreplace") + b"\n")
-        if self.junit is not None:
-            output.write_file(self.junit, junit())
-        if self.markdown is not None:
-            output.write_file(self.markdown, markdown())
-        if self.sarif is not None:
-            output.write_file(self.sarif, to_sarif(findings, task))
+                files.append(Path(summary), to_markdown(document).encode("utf-8", errors="backslashreplace") + b"\n")
+        for file, writer in ((self.junit, to_junit), (self.markdown, to_markdown), (self.sarif, to_sarif)):
+            if file is not None:
+                output.write_file(file, writer(document))
 
 
 def _file(name: str, what: str) -> Callable[[_F], _F]:

@@ -18,12 +18,12 @@ from pinscrew.ground.processes import job_count, process_pool
 from pinscrew.witnesses.witness import WITNESSES, require
 
 if TYPE_CHECKING:
-    from pinscrew.reporting.model import Finding
     from pinscrew.robot.robot import Robot
+    from pinscrew.verification.document import Attempt
+    from pinscrew.verification.outcome import ReportData
     from pinscrew.verification.report import Report
 
-    _Outcome: TypeAlias = tuple[list[Report], list[PinscrewError], list[PinscrewWarning], list[Finding]]
-    _Question: TypeAlias = Callable[[arguments.Named], _Outcome]
+    _Question: TypeAlias = Callable[[arguments.Named], Attempt]
 
 __all__ = ["command"]
 
@@ -63,7 +63,8 @@ def command(
       pinscrew verify scara l1:=0.5 path/to/arm.urdf --junit report.xml
       pinscrew verify --all --samples 100
     """
-    from pinscrew.verification import formats
+    from pinscrew.reporting import to_json
+    from pinscrew.verification.document import document
 
     if everything and words:
         raise click.UsageError("--all takes no ROBOT")
@@ -71,39 +72,32 @@ def command(
     asked = tuple(dict.fromkeys(witnesses))
     for witness in asked:
         require(witness)
-    question = partial(_outcome, samples=samples, seed=seed, frames=frames, witnesses=asked)
-    agreeing = 0
-    reports: list[Report] = []
-    errors: list[formats.Unverified] = []
-    findings: list[Finding] = []
+    question = partial(_attempt, samples=samples, seed=seed, frames=frames, witnesses=asked)
+    attempts: list[Attempt] = []
     with progress("verifying", len(named)) as advance:
-        for one, (compared, failed, remarks, found) in zip(named, _each(question, named, jobs), strict=True):
-            reports += compared
-            errors += [formats.Unverified(one.source, error) for error in failed]
-            agreeing += not failed and all(report.ok for report in compared)
-            findings += found
-            _warn(remarks, brief=everything)
-            advance(1, one.source)
+        for attempt in _each(question, named, jobs):
+            attempts.append(attempt)
+            _warn(attempt.warnings, brief=everything)
+            advance(1, attempt.robot)
+    outcome = document(attempts)
+    reports = [report for attempt in attempts for report in attempt.reports]
     if wanted.as_json:
-        click.echo(formats.to_json(reports, errors))
+        click.echo(to_json(outcome))
     elif len(named) == 1:
         for report in reports:
             _print_checks(report)
     elif reports:
         _print_summary(reports, pairs=bool(asked))
         engines, frame = "all engines" if asked else "both engines", "compared frame" if frames else "frame"
+        agreeing = sum(attempt.ok for attempt in attempts)
         click.echo(f"{agreeing} of {len(named)} robots: {engines} agree to rounding error on every {frame}")
-    for unverified in errors:
-        click.echo(f"pinscrew: {unverified.error}", err=True)
-    wanted.write(
-        "pinscrew verify",
-        findings,
-        junit=lambda: formats.to_junit(reports, errors),
-        markdown=lambda: formats.to_markdown(reports, errors),
-    )
+    for attempt in attempts:
+        for error in attempt.errors:
+            click.echo(f"pinscrew: {error}", err=True)
+    wanted.write(outcome)
     if not all(report.ok for report in reports):
         sys.exit(1)
-    if errors:
+    if not outcome.ok:
         sys.exit(2)
 
 
@@ -115,8 +109,8 @@ def _known(everything: bool) -> list[arguments.Named]:
     return [arguments.Named(entry.name) for entry in entries]
 
 
-def _each(question: _Question, named: Sequence[arguments.Named], jobs: int | None) -> Iterator[_Outcome]:
-    """The outcome for each robot, in order, as they come."""
+def _each(question: _Question, named: Sequence[arguments.Named], jobs: int | None) -> Iterator[Attempt]:
+    """The attempt at each robot, in order, as they come."""
     count = 1 if jobs is None and len(named) <= MOST_IN_ONE else job_count(jobs)
     if count == 1:
         yield from map(question, named)
@@ -125,19 +119,17 @@ def _each(question: _Question, named: Sequence[arguments.Named], jobs: int | Non
         yield from pool.map(question, named)
 
 
-def _outcome(
+def _attempt(
     named: arguments.Named, samples: int, seed: int, frames: tuple[str, ...], witnesses: tuple[str, ...]
-) -> _Outcome:
-    """The reports on one robot, why others could not be made, what was remarked about its file, all of it as findings.
+) -> Attempt:
+    """The reports on one robot, why others could not be made, and what was remarked about its file.
 
     Where our engines could not be compared, no witness is heard.
     """
-    from pinscrew.reporting.troubles import from_error, from_warning
-    from pinscrew.verification.findings import from_report
+    from pinscrew.verification.document import Attempt
 
     reports: list[Report] = []
     errors: list[PinscrewError] = []
-    findings: list[Finding] = []
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", PinscrewWarning)
         try:
@@ -151,11 +143,8 @@ def _outcome(
                 reports.append(_verify(robot, samples, seed, frames, witness))
             except PinscrewError as error:
                 errors.append(error)
-    remarks = [one.message for one in caught if isinstance(one.message, PinscrewWarning)]
-    findings += (from_warning(remark, named.source) for remark in remarks)
-    findings += (found for report in reports for found in from_report(report, robot.description))
-    findings += (from_error(error, named.source) for error in errors)
-    return reports, errors, remarks, findings
+    remarks = tuple(warning.message for warning in caught if isinstance(warning.message, PinscrewWarning))
+    return Attempt(named.source, tuple(reports), tuple(errors), remarks)
 
 
 def _warn(remarks: Sequence[PinscrewWarning], *, brief: bool) -> None:
@@ -175,30 +164,32 @@ def _verify(robot: Robot, samples: int, seed: int, frames: tuple[str, ...], agai
     return verify(robot, samples, seed, frames=frames or None, engines=engines)
 
 
-def _print_checks(report: Report) -> None:
+def _print_checks(report: ReportData) -> None:
     """One robot: a line for each check."""
     from rich.text import Text
 
-    from pinscrew.verification import formats
+    from pinscrew.reporting.document import Strong
+    from pinscrew.verification.document import table
+    from pinscrew.verification.wording import details, failures, summary
 
     console = output.console()
     wide = console.width >= output.NARROW
-    table = output.table("check", "error", "tolerance", "", *["largest at"] * wide)
-    for check in report.checks:
-        mark = Text("ok", "green") if check.ok else Text("FAIL", "bold red")
-        where = [Text(formats.place(check))] * wide
-        table.add_row(check.name, f"{check.error:.1e}", f"{check.tolerance:.1e}", mark, *where)
-    console.print(table)
-    failures = [] if wide else formats.failures(report)
-    for line in (*failures, *formats.details(report), formats.summary(report)):
+    checks = table(report)
+    shown = output.table(*checks.columns[: None if wide else -1])
+    for row in checks.rows:
+        *numbers, mark, where = row
+        style = "bold red" if isinstance(mark, Strong) else "green"
+        shown.add_row(*numbers, Text(mark, style), *[Text(where)] * wide)
+    console.print(shown)
+    for line in (*([] if wide else failures(report)), *details(report), summary(report)):
         click.echo(line)
 
 
-def _print_summary(reports: Sequence[Report], *, pairs: bool) -> None:
+def _print_summary(reports: Sequence[ReportData], *, pairs: bool) -> None:
     """Several robots: a line for each report, and what the failed ones have to say; ``pairs`` names the engines."""
     from rich.text import Text
 
-    from pinscrew.verification import formats
+    from pinscrew.verification.wording import details, failures, summary
 
     table = output.table("robot", "engines", *["compared"] * pairs, "largest error", "frames", "configurations")
     for report in reports:
@@ -209,4 +200,4 @@ def _print_summary(reports: Sequence[Report], *, pairs: bool) -> None:
     output.console().print(table)
     for report in reports:
         if not report.ok:
-            click.echo("\n".join((formats.summary(report), *formats.failures(report), *formats.details(report))))
+            click.echo("\n".join((summary(report), *failures(report), *details(report))))

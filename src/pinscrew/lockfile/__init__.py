@@ -5,8 +5,8 @@
 
 from __future__ import annotations
 
-from pinscrew.lockfile.checking import Checked, check
+from pinscrew.lockfile.checking import LockCheck, check
 from pinscrew.lockfile.reading import read
 from pinscrew.lockfile.writing import fingerprint, text
 
-__all__ = ["Checked", "check", "fingerprint", "read", "text"]
+__all__ = ["LockCheck", "check", "fingerprint", "read", "text"]

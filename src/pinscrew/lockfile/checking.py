@@ -5,47 +5,41 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
+from pinscrew.changes.run import diff
 from pinscrew.description.packages import is_file
 from pinscrew.ground.errors import DescriptionError
+from pinscrew.lockfile.document import document
+from pinscrew.lockfile.outcome import LockCheckData
 from pinscrew.lockfile.reading import Lock, read_lock
 from pinscrew.lockfile.writing import fingerprint
+from pinscrew.reporting.document import Document
+from pinscrew.reporting.documented import Documented
 from pinscrew.robot.loading import load
 from pinscrew.robot.robot import Robot
 
-if TYPE_CHECKING:
-    from pinscrew.changes.changes import Changes
-
-__all__ = ["TOLERANCE", "Checked", "check", "reload"]
+__all__ = ["TOLERANCE", "LockCheck", "check", "reload"]
 
 TOLERANCE: Final = 1e-9
 """Radians, and metres in a robot of up to 1 m, that are no change: far above the rounding to 12 digits."""
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
-    """A lock compared with its robot's file.
+@dataclass(frozen=True)
+class LockCheck(Documented, LockCheckData):
+    """A lock compared with its robot's file; `LockCheckData` lists what it holds. ``print`` shows it as text.
 
-    Attributes:
-        lock: the lock file.
-        robot: the robot as its file has it now.
-        changes: what is different, in the sense from the lock to the file; None where the fingerprints are equal.
+    Its JSON has the schema ``pinscrew.lock-check/1``.
     """
 
-    lock: Path
-    robot: Robot
-    changes: Changes | None
-
-    @property
-    def same(self) -> bool:
-        """Whether the mechanism is the one that the lock holds."""
-        return self.changes is None or self.changes.same
+    def document(self) -> Document:
+        """The check in no format yet."""
+        return document([self])
 
 
 def check(
     path: str | Path, *, packages: Mapping[str, str | Path] | None = None, allow_outside: bool = False
-) -> Checked:
+) -> LockCheck:
     """Compare a lock with the robot's file, read anew with the arguments that the lock names.
 
     Where the fingerprints are equal, so are the mechanisms; else they are compared with a tolerance of 1e-9 rad and
@@ -62,18 +56,16 @@ def check(
     """
     lock = read_lock(path)
     robot = reload(lock, packages=packages, allow_outside=allow_outside)
-    if fingerprint(robot) == lock.document.hash:
-        return Checked(lock.path, robot, None)
-    from pinscrew.changes.run import diff
-
+    if fingerprint(robot) == lock.content.hash:
+        return LockCheck(lock.path, robot, None)
     locked = lock.robot()
     length = TOLERANCE * max(1.0, locked.reach, robot.reach)
-    return Checked(lock.path, robot, diff(locked, robot, length=length, angle=TOLERANCE))
+    return LockCheck(lock.path, robot, diff(locked, robot, length=length, angle=TOLERANCE))
 
 
 def reload(lock: Lock, *, packages: Mapping[str, str | Path] | None = None, allow_outside: bool = False) -> Robot:
     """The robot of a lock, read from its file as that is now; see `check`."""
-    held = lock.document
+    held = lock.content
     if not is_file(lock.source):
         what = f"there is no {held.source!r}, from which it was made"
         remedy = "put the file back, or remove the lock"

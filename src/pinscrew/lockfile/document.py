@@ -1,121 +1,90 @@
-"""What a lock file holds, and how it is laid out: JSON by hand, a line for each row, screw, limit and mimic."""
+"""Checked locks as a neutral document: a section for each, and what moved at the line of its joint."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Final
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
 
-from pinscrew.description.model import JointType, Limits, Mimic
-from pinscrew.ground.typing import FloatArray
+from pinscrew.changes.document import as_data, findings
+from pinscrew.ground.errors import PinscrewError
+from pinscrew.lockfile.outcome import LockCheckData
+from pinscrew.reporting.document import Document, Line, Section, cases_of
+from pinscrew.reporting.findings import Finding
+from pinscrew.reporting.troubles import from_error
 
-__all__ = ["SCHEMA", "Document", "LockedJoint"]
+__all__ = ["SCHEMA", "TASK", "document"]
 
-SCHEMA: Final = "pinscrew.lock/1"
-
-
-@dataclass(frozen=True, slots=True)
-class LockedJoint:
-    """A joint in a lock.
-
-    Attributes:
-        name: its name.
-        type: its type.
-        parent: the link above.
-        child: the link below.
-        home: pose of the child link in the base frame at `Robot.neutral`, rounded, shape (4, 4).
-        screw: its spatial screw axis (v, ω) there, rounded, shape (6,); None for fixed, planar and floating joints,
-            whose pose says everything.
-        limits: as the file states them; None where there is no screw.
-        mimic: None where it has a coordinate of its own.
-    """
-
-    name: str
-    type: JointType
-    parent: str
-    child: str
-    home: FloatArray
-    screw: FloatArray | None = None
-    limits: Limits | None = None
-    mimic: Mimic | None = None
+SCHEMA: Final = "pinscrew.lock-check/1"
+TASK: Final = "pinscrew lock"
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
-    """A lock: the mechanism, and what it was made from.
-
-    Attributes:
-        robot: the robot's name in its file.
-        source: the robot's file, relative to the lock's folder, with forward slashes.
-        arguments: the xacro arguments that were given.
-        floating_base: whether the root link was made to float.
-        tip: the default tip, where one was named.
-        base: the base link.
-        joints: all joints in tree order.
-    """
-
-    robot: str
-    source: str
-    base: str
-    joints: tuple[LockedJoint, ...]
-    arguments: Mapping[str, str] = field(default_factory=dict)
-    floating_base: bool = False
-    tip: str | None = None
-
-    @property
-    def hash(self) -> str:
-        """``sha256:…`` of the schema and the mechanism as it is laid out: base and joints."""
-        canonical = f"{SCHEMA}\n{self._mechanism()}"
-        return f"sha256:{hashlib.sha256(canonical.encode('utf-8', 'surrogatepass')).hexdigest()}"
-
-    def text(self) -> str:
-        """The lock file."""
-        heading = [("schema", SCHEMA), ("robot", self.robot), ("source", self.source)]
-        lines = [f'  "{key}": {_string(value)},' for key, value in heading]
-        if self.arguments:
-            pairs = (f"    {_string(name)}: {_string(value)}" for name, value in sorted(self.arguments.items()))
-            lines.append('  "arguments": {\n' + ",\n".join(pairs) + "\n  },")
-        if self.floating_base:
-            lines.append('  "floating_base": true,')
-        if self.tip is not None:
-            lines.append(f'  "tip": {_string(self.tip)},')
-        lines.append(f'  "hash": "{self.hash}",')
-        return "\n".join(("{", *lines, self._mechanism(), "}", ""))
-
-    def _mechanism(self) -> str:
-        joints = ",\n".join("    {\n" + ",\n".join(_joint(joint)) + "\n    }" for joint in self.joints)
-        return f'  "base": {_string(self.base)},\n  "joints": ' + (f"[\n{joints}\n  ]" if joints else "[]")
+def document(checked: Sequence[LockCheckData], errors: Sequence[tuple[Path, PinscrewError]] = ()) -> Document:
+    """The checks as a document, with the locks that could not be checked, and why."""
+    asked, same = len(checked) + len(errors), sum(check.same for check in checked)
+    moved = [str(check.lock) for check in checked if not check.same]
+    if moved:
+        closing = f"{len(moved)} of {asked} mechanisms moved; if that is meant: pinscrew lock {' '.join(moved)}"
+    else:
+        closing = f"{same} of {asked} mechanisms are those of their locks"
+    failures = [(path, from_error(error, str(path))) for path, error in errors]
+    told = [finding for check in checked for finding in _findings(check)]
+    return Document(
+        task=TASK,
+        ok=not errors and not moved,
+        sections=(*map(_section, checked), *(_unchecked(path, finding) for path, finding in failures)),
+        findings=(*told, *(finding for _, finding in failures)),
+        data=_data(checked, errors),
+        overview=f"pinscrew lock: {same} of {asked} mechanisms are those of their locks",
+        closing=closing,
+    )
 
 
-def _joint(joint: LockedJoint) -> Iterator[str]:
-    for key in ("name", "type", "parent", "child"):
-        yield f'      "{key}": {_string(getattr(joint, key))}'
-    rows = ",\n".join(f"        {_vector(row)}" for row in joint.home)
-    yield f'      "home": [\n{rows}\n      ]'
-    if joint.screw is not None:
-        yield f'      "screw": {_vector(joint.screw)}'
-    if joint.limits is not None:
-        limits = joint.limits
-        values = {"lower": limits.lower, "upper": limits.upper, "velocity": limits.velocity, "effort": limits.effort}
-        yield '      "limits": {' + ", ".join(f'"{key}": {_number(value)}' for key, value in values.items()) + "}"
-    if joint.mimic is not None:
-        mimic = joint.mimic
-        factors = f'"multiplier": {_number(mimic.multiplier)}, "offset": {_number(mimic.offset)}'
-        yield f'      "mimic": {{"joint": {_string(mimic.joint)}, {factors}}}'
+def _findings(check: LockCheckData) -> tuple[Finding, ...]:
+    if check.changes is None:
+        return ()
+    return findings(check.changes, str(check.lock), changed="moved", kept="placed-anew")
 
 
-def _string(text: str) -> str:
-    """The text as JSON has it; bytes of a file's name that are no UTF-8 as escapes."""
-    return json.dumps(text, ensure_ascii=False).encode("utf-8", "backslashreplace").decode()
+def _section(check: LockCheckData) -> Section:
+    changes = () if check.changes is None else check.changes.changes
+    notes = () if check.changes is None else check.changes.notes
+    return Section(
+        title=str(check.lock),
+        heading=f"{check.lock}: {'the same' if check.same else 'MOVED'}",
+        lines=(
+            *(Line(change.words, "fault", change.kind) for change in changes),
+            *(Line(note.words, "note", note.kind) for note in notes),
+        ),
+        cases=cases_of(_findings(check)),
+    )
 
 
-def _number(value: float) -> str:
-    """The fewest digits that are this number, zero without a sign, infinity as null."""
-    return repr(float(value) + 0.0).removesuffix(".0") if math.isfinite(value) else "null"
+def _unchecked(path: Path, finding: Finding) -> Section:
+    return Section(
+        title=str(path),
+        heading=f"{path}: could not be checked",
+        lines=(Line(finding.message, "paragraph"),),
+        cases=cases_of([finding]),
+        tried=False,
+    )
 
 
-def _vector(values: FloatArray) -> str:
-    return f"[{', '.join(map(_number, values.tolist()))}]"
+def _data(checked: Sequence[LockCheckData], errors: Sequence[tuple[Path, PinscrewError]]) -> dict[str, Any]:
+    rows = [
+        {
+            "lock": str(check.lock),
+            "file": check.robot.description.file,
+            "same": check.same,
+            "changes": [] if check.changes is None else [as_data(change) for change in check.changes.changes],
+            "notes": [] if check.changes is None else [as_data(note) for note in check.changes.notes],
+        }
+        for check in checked
+    ]
+    failed = [{"lock": str(path), "code": error.code, "message": str(error)} for path, error in errors]
+    return {
+        "schema": SCHEMA,
+        "ok": not errors and all(check.same for check in checked),
+        "locks": rows,
+        "errors": failed,
+    }

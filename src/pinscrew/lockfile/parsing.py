@@ -1,4 +1,4 @@
-"""The text of a lock file as a document: everything checked, nothing taken on trust."""
+"""The text of a lock file as its content: everything checked, nothing taken on trust."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES, JointType, Limits, Mimic, read_only
 from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.typing import FloatArray
-from pinscrew.lockfile.document import SCHEMA, Document, LockedJoint
+from pinscrew.lockfile.content import SCHEMA, LockContent, LockedJoint
 from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE
 
 __all__ = ["parse"]
@@ -76,7 +76,7 @@ class _At:
         return read_only(np.array([item.number() for item in items]))
 
 
-def parse(text: str, file: Path) -> Document:
+def parse(text: str, file: Path) -> LockContent:
     """What the text of a lock file holds.
 
     Args:
@@ -102,7 +102,7 @@ def parse(text: str, file: Path) -> Document:
         joints[joint.name] = joint
         links.add(joint.child)
     _check_mimics(joints, top["joints"])
-    document = Document(
+    content = LockContent(
         robot=top["robot"].string(),
         source=_source(top["source"]),
         base=base,
@@ -111,10 +111,10 @@ def parse(text: str, file: Path) -> Document:
         floating_base=_floating(top.get("floating_base"), joints),
         tip=_tip(top.get("tip"), links),
     )
-    if top["hash"].string() != document.hash:
+    if top["hash"].string() != content.hash:
         what = "its hash is not that of its content, so it was edited or merged by hand"
         raise DescriptionError("lock-edited", what, file=file, remedy=_REMEDY)
-    return document
+    return content
 
 
 def _json(text: str, file: Path) -> Any:

@@ -14,7 +14,7 @@ from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.lockfile import parsing
-from pinscrew.lockfile.document import Document, LockedJoint
+from pinscrew.lockfile.content import LockContent, LockedJoint
 from pinscrew.robot.robot import Robot
 
 __all__ = ["Lock", "read", "read_lock"]
@@ -26,16 +26,16 @@ class Lock:
 
     Attributes:
         path: the lock file.
-        document: what it holds.
+        content: what it holds.
     """
 
     path: Path
-    document: Document
+    content: LockContent
 
     @property
     def source(self) -> Path:
         """The robot's file."""
-        return self.path.parent / self.document.source
+        return self.path.parent / self.content.source
 
     def robot(self) -> Robot:
         """The robot as it was when the lock was written.
@@ -46,7 +46,7 @@ class Lock:
         Raises:
             DescriptionError: if its names can't be a robot's; see `Robot`.
         """
-        held = self.document
+        held = self.content
         homes: dict[str, FloatArray] = {held.base: np.eye(4)}
         driven = drivers({joint.name: joint.mimic for joint in held.joints})
         joints = []

@@ -11,10 +11,10 @@ import numpy as np
 
 from pinscrew.description.model import SCALAR_TYPES, Joint
 from pinscrew.ground.typing import FloatArray
-from pinscrew.lockfile.document import Document, LockedJoint
+from pinscrew.lockfile.content import LockContent, LockedJoint
 from pinscrew.robot.robot import Robot
 
-__all__ = ["document", "fingerprint", "text"]
+__all__ = ["content", "fingerprint", "text"]
 
 DIGITS: Final = 12
 """Significant digits of a pose or screw: below them are the roundings of different machines."""
@@ -30,7 +30,7 @@ def fingerprint(robot: Robot) -> str:
     Robots of one fingerprint have the same mechanism, coordinates and frames. Robots of different ones may still
     have: a number within rounding of a tie can fall to either side of it, so compare them then, as `check` does.
     """
-    return document(robot).hash
+    return content(robot).hash
 
 
 def text(robot: Robot, lock: str | Path | None = None) -> str:
@@ -41,16 +41,16 @@ def text(robot: Robot, lock: str | Path | None = None) -> str:
         lock: where the file will stand, since it names the robot's file relative to its own folder; by default
             beside that.
     """
-    return document(robot, lock).text()
+    return content(robot, lock).text()
 
 
-def document(robot: Robot, lock: str | Path | None = None) -> Document:
+def content(robot: Robot, lock: str | Path | None = None) -> LockContent:
     """What the robot's lock holds; see `text`."""
     description = robot.description
     source = Path(description.file)
     folder = source.parent if lock is None else Path(lock).parent
     grid = _Grid(robot)
-    return Document(
+    return LockContent(
         robot=description.name,
         source=Path(os.path.relpath(source, folder)).as_posix(),
         base=robot.base,

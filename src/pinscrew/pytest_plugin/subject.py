@@ -13,10 +13,10 @@ from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 from pinscrew.pytest_plugin.settings import Listed, Settings
 from pinscrew.robot.loading import load
 from pinscrew.robot.robot import Robot
-from pinscrew.verification import formats
 from pinscrew.verification.outcome import Check
 from pinscrew.verification.report import Report
 from pinscrew.verification.run import TOLERANCE, verify
+from pinscrew.verification.wording import largest_at
 
 __all__ = ["TROUBLE", "Subject", "joint_lines"]
 
@@ -61,9 +61,7 @@ class Subject:
         """What a failed check has to say, the joint to blame first; its command is for ``folder``."""
         lines = [*check.remarks, *report.diagnosis]
         if check.tolerance > 0.0:
-            place = formats.place(check)
-            error = f"{check.name}: error {check.error:.1e} above {check.tolerance:.1e}"
-            lines.append(f"{error}, largest at {place}" if place else error)
+            lines.append(f"{check.name}: error {check.error:.1e} above {check.tolerance:.1e}{largest_at(check)}")
         if check.place.q:
             lines.append(f"q = {list(check.place.q)}")
         return "\n".join(dict.fromkeys([*lines, f"again: {self._command(report, folder)}"]))

@@ -5,10 +5,10 @@ Source: GitHub's documentation, "Workflow commands for GitHub Actions"; the esca
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Final
 
-from pinscrew.reporting.model import Finding, Level
+from pinscrew.reporting.document import Document
+from pinscrew.reporting.findings import Finding, Level
 from pinscrew.reporting.paths import below
 
 __all__ = ["to_annotations"]
@@ -16,9 +16,9 @@ __all__ = ["to_annotations"]
 _COMMANDS: Final[dict[Level, str]] = {"error": "error", "warning": "warning", "note": "notice"}
 
 
-def to_annotations(findings: Sequence[Finding]) -> str:
-    """A workflow command for each finding, each on a line of its own."""
-    return "".join(f"{_command(finding)}\n" for finding in findings)
+def to_annotations(document: Document) -> str:
+    """A workflow command for each finding of a document, each on a line of its own."""
+    return "".join(f"{_command(finding)}\n" for finding in document.findings)
 
 
 def _command(finding: Finding) -> str:

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
 
-from pinscrew.reporting.model import Finding, help_text
+from pinscrew.reporting.document import Document
+from pinscrew.reporting.findings import Finding, help_text
 from pinscrew.reporting.paths import below
 
 __all__ = ["to_sarif"]
@@ -21,13 +22,13 @@ __all__ = ["to_sarif"]
 _SCHEMA: Final = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
 
-def to_sarif(findings: Sequence[Finding], category: str) -> str:
-    """Findings as a SARIF log with one run.
+def to_sarif(document: Document) -> str:
+    """The findings of a document as a SARIF log with one run.
 
-    Args:
-        findings: one about no file becomes a notification of the tool (§3.20.21), since a result must be somewhere.
-        category: what was done, such as ``"pinscrew verify"``; GitHub keeps the results of each category apart.
+    One about no file becomes a notification of the tool (§3.20.21), since a result must be somewhere. GitHub keeps the
+    results of each of the documents' tasks apart.
     """
+    findings = document.findings
     rules = list(dict.fromkeys(finding.rule for finding in findings))
     results = [_result(finding, rules) for finding in findings if finding.file]
     notifications = [_notification(finding, rules) for finding in findings if not finding.file]
@@ -38,7 +39,7 @@ def to_sarif(findings: Sequence[Finding], category: str) -> str:
     }
     run = {
         "tool": {"driver": driver},
-        "automationDetails": {"id": f"{category}/"},
+        "automationDetails": {"id": f"{document.task}/"},
         "originalUriBaseIds": {"%SRCROOT%": {"description": {"text": "The top of the checkout."}}},
         "invocations": [
             {

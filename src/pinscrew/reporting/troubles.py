@@ -8,7 +8,7 @@ from pinscrew.description.expand import is_xacro
 from pinscrew.description.packages import is_file
 from pinscrew.ground.errors import LONGEST, DescriptionError, PinscrewError, PinscrewWarning, XacroError
 from pinscrew.ground.words import brief, one_line
-from pinscrew.reporting.model import Finding
+from pinscrew.reporting.findings import Finding
 
 __all__ = ["expanded", "from_error", "from_warning"]
 

@@ -68,6 +68,7 @@ class ReportData:
         checks: one per comparison.
         diagnosis: where the robots of the engines differ first, in words; empty if they agree.
         blamed: the joint that each line of the diagnosis is about, or ``""``.
+        lines: the line of that joint in the file (after expansion, for xacro), or None.
     """
 
     robot: str
@@ -83,6 +84,7 @@ class ReportData:
     checks: tuple[Check, ...]
     diagnosis: tuple[str, ...] = field(default=())
     blamed: tuple[str, ...] = field(default=())
+    lines: tuple[int | None, ...] = field(default=())
 
     @property
     def ok(self) -> bool:

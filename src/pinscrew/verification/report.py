@@ -1,30 +1,24 @@
-"""What `pinscrew.verify` answers: the outcome, with the formats that it can be written in."""
+"""What `pinscrew.verify` answers: the outcome, which can be printed and written in every format."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pinscrew.verification import formats
+from pinscrew.reporting.document import Document
+from pinscrew.reporting.documented import Documented
+from pinscrew.verification.document import Attempt, document
 from pinscrew.verification.outcome import ReportData
 
 __all__ = ["Report"]
 
 
 @dataclass(frozen=True)
-class Report(ReportData):
-    """The outcome of `verify` for one robot; `ReportData` lists what it holds. ``print`` shows it as a table."""
+class Report(Documented, ReportData):
+    """The outcome of `verify` for one robot; `ReportData` lists what it holds. ``print`` shows it as a table.
 
-    def __str__(self) -> str:
-        return formats.to_text(self)
+    Its JSON has the schema ``pinscrew.verify/1``, its JUnit a test case per check.
+    """
 
-    def to_json(self) -> str:
-        """The report as JSON, schema ``pinscrew.verify/1``."""
-        return formats.to_json([self])
-
-    def to_junit(self) -> str:
-        """The report as JUnit XML: a test suite with a test case per check."""
-        return formats.to_junit([self])
-
-    def to_markdown(self) -> str:
-        """The report as a Markdown table."""
-        return formats.to_markdown([self])
+    def document(self) -> Document:
+        """The report in no format yet."""
+        return document([Attempt(self.robot, (self,))])

@@ -75,7 +75,8 @@ def verify(
             many = engines is None and bool(compiled.check_names(samples))
             checks += _numbers(robot, pair, known, where, tolerance, many=many)
         failed = [check for check in checks if not check.ok]
-        found = diagnosis.diagnose(pair, failed, tolerance) if failed else ()
+        blame = diagnosis.diagnose(pair, failed, tolerance) if failed else ()
+    lines = {joint.name: joint.line for joint in robot.description.joints}
     return Report(
         robot=robot.name,
         file=robot.description.file,
@@ -88,8 +89,9 @@ def verify(
         tolerance=tolerance,
         reach=robot.reach,
         checks=tuple(checks),
-        diagnosis=tuple(difference.words for difference in found),
-        blamed=tuple(difference.joint for difference in found),
+        diagnosis=tuple(difference.words for difference in blame),
+        blamed=tuple(difference.joint for difference in blame),
+        lines=tuple(lines.get(difference.joint) for difference in blame),
     )
 
 

@@ -13,6 +13,8 @@ Level: TypeAlias = Literal["error", "warning", "note"]
 
 RULES: Final[dict[str, str]] = {
     "disagreement": "The two engines read, place or move a joint differently, so one of them is wrong about the file.",
+    "motion-changed": "The robot moves otherwise than the one that it is compared with.",
+    "motion-kept": "The file differs from the other one in what does not change how the robot moves.",
     "moved": "The mechanism is no longer the one that the robot's lock holds.",
     "placed-anew": "The file differs from the lock in what does not change how the robot moves.",
 }
@@ -45,6 +47,12 @@ class Finding:
         if self.robot in ("", self.file):
             return self.message
         return f"{one_line(brief(self.robot))}: {self.message}"
+
+    @property
+    def placed(self) -> str:
+        """The message, with file and line where there are any."""
+        place = self.file if self.line is None else f"{self.file}:{self.line}"
+        return f"{place}: {self.message}" if place else self.message
 
 
 def help_text(rule: str) -> str:

@@ -1,0 +1,123 @@
+"""Changes as a neutral document: a line for each, and each at the line of its joint in b's file."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any, Final
+
+from pinscrew.changes.outcome import Change, ChangesData, TipPlace
+from pinscrew.changes.wording import degrees, millimetres, number
+from pinscrew.ground.errors import PinscrewError
+from pinscrew.ground.words import one_line
+from pinscrew.reporting.document import Document, Line, Section, cases_of
+from pinscrew.reporting.findings import Finding, Level
+from pinscrew.reporting.troubles import expanded, from_error
+
+__all__ = ["SCHEMA", "TASK", "as_data", "document", "failure", "findings", "lines", "summary"]
+
+SCHEMA: Final = "pinscrew.diff/1"
+TASK: Final = "pinscrew diff"
+ROUNDING: Final = 1e-11
+"""A displacement (m or rad) of tips that is told as none: what is left of the 12 digits in a lock, say."""
+
+
+def document(changes: ChangesData) -> Document:
+    """The changes as a document of one section."""
+    title = f"{changes.a} → {changes.b}"
+    told = findings(changes, title, changed="motion-changed", kept="motion-kept")
+    section = Section(
+        title=title,
+        heading=summary(changes),
+        lines=lines(changes),
+        notes_heading="Without a change of the motion:",
+        cases=cases_of(told),
+    )
+    return Document(TASK, changes.same, (section,), told, _data(changes))
+
+
+def failure(title: str, error: PinscrewError) -> Document:
+    """The document of a comparison that an error kept from being made."""
+    finding = from_error(error, title)
+    heading, line = f"{title}: could not be compared", Line(finding.message, "paragraph")
+    section = Section(title, heading, lines=(line,), cases=cases_of([finding]), tried=False)
+    return Document(TASK, ok=False, sections=(section,), findings=(finding,))
+
+
+def summary(changes: ChangesData) -> str:
+    """One line: what was compared, and the outcome."""
+    count = len(changes.changes)
+    outcome = "the motion is the same" if changes.same else f"{count} change{'s' * (count > 1)}"
+    notes = len(changes.notes)
+    remarked = f", {notes} note{'s' * (notes > 1)}" if notes else ""
+    return f"{one_line(changes.a)} → {one_line(changes.b)}: {outcome}{remarked}"
+
+
+def lines(changes: ChangesData) -> tuple[Line, ...]:
+    """The changes, the notes, and how far the tips come apart."""
+    return (
+        *(Line(_placed(change), "fault", change.kind) for change in changes.changes),
+        *(Line(_placed(note), "note", note.kind) for note in changes.notes),
+        *(Line(text) for text in _apart(changes)),
+    )
+
+
+def findings(changes: ChangesData, robot: str, *, changed: str, kept: str) -> tuple[Finding, ...]:
+    """An error for each change of the motion and a note for each edit that does not change it, by these rules."""
+
+    def finding(change: Change, rule: str, level: Level) -> Finding:
+        line, at = expanded(changes.file, change.line)
+        return Finding(rule, level, f"{one_line(change.words)}{at}", changes.file, line, robot)
+
+    return (
+        *(finding(change, changed, "error") for change in changes.changes),
+        *(finding(note, kept, "note") for note in changes.notes),
+    )
+
+
+def as_data(change: Change) -> dict[str, Any]:
+    """A change as JSON has it."""
+    return asdict(change)
+
+
+def _data(changes: ChangesData) -> dict[str, Any]:
+    apart = changes.displacement
+    return {
+        "schema": SCHEMA,
+        "a": changes.a,
+        "b": changes.b,
+        "same": changes.same,
+        "changes": [as_data(change) for change in changes.changes],
+        "notes": [as_data(note) for note in changes.notes],
+        "displacement": apart
+        and {
+            "length": apart.length,
+            "length_at": {"frame": apart.length_at.frame, "q": dict(apart.length_at.q)},
+            "angle": apart.angle,
+            "angle_at": {"frame": apart.angle_at.frame, "q": dict(apart.angle_at.q)},
+        },
+    }
+
+
+def _placed(change: Change) -> str:
+    where = "" if change.line is None else f" (line {change.line})"
+    return f"{change.words}{where}"
+
+
+def _apart(changes: ChangesData) -> list[str]:
+    """How far apart the tips come, if anything changed."""
+    apart = changes.displacement
+    if changes.same:
+        return []
+    if apart is None:
+        return ["the two do not have the same coordinates and tips, so displacements can't be given"]
+    if apart.length <= ROUNDING and apart.angle <= ROUNDING:
+        return ["at equal coordinates the tips stand where they stood"]
+    told = [f"tips come apart by {millimetres(apart.length)} at most: {_place(apart.length_at)}"]
+    if apart.angle > ROUNDING:
+        told.append(f"tips are turned by {degrees(apart.angle)} at most: {_place(apart.angle_at)}")
+    return told
+
+
+def _place(place: TipPlace) -> str:
+    q = ", ".join(f"{name}={number(value)}" for name, value in place.q.items())
+    return f"{place.frame!r} at {q}" if q else repr(place.frame)
