@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import Final
 
+from pinscrew.ground.escaping import visible
+
 __all__ = ["brief", "one_line"]
 
 MOST: Final = 400
@@ -20,4 +22,4 @@ def brief(text: str, most: int = MOST) -> str:
 def one_line(text: str) -> str:
     """The text without line breaks and colours, and with other control characters as escapes."""
     spaced = " ".join(re.sub(r"\x1b\[[0-9;]*m", "", text).split())
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in spaced)
+    return visible(spaced)
