@@ -77,6 +77,7 @@ class Server:
         environment: Mapping[str, str] | None = None,
         unprivileged: bool = False,
         folder: str | Path | None = None,
+        streams: Mapping[int, str] | None = None,
     ) -> Result:
         """Run ``pinscrew`` with these arguments.
 
@@ -86,6 +87,8 @@ class Server:
             environment: variables to add.
             unprivileged: run without root's rights to read everything.
             folder: where to run.
+            streams: what becomes of standard output (1) or error (2): it is on a ``"full"`` disk, ``"closed"``, or a
+                pipe that nobody reads, ``"unread"``.
         """
         request = {
             "arguments": [str(argument) for argument in arguments],
@@ -93,6 +96,7 @@ class Server:
             "environment": dict(environment or {}),
             "unprivileged": unprivileged,
             "folder": str(folder or Path.cwd()),
+            "streams": {str(number): fate for number, fate in (streams or {}).items()},
         }
         stream = self._stream(self._process.stdin)
         stream.write(json.dumps(request) + "\n")
@@ -152,7 +156,12 @@ def _run(request: Mapping[str, Any], out: int, err: int) -> None:
         os.setsid()
         os.dup2(out, 1)
         os.dup2(err, 2)
-        sys.stdout, sys.stderr = (os.fdopen(fd, "w", encoding="utf-8") for fd in (1, 2))
+        for number, fate in request["streams"].items():
+            _spoil(int(number), fate)
+        sys.stdout, sys.stderr = (
+            None if request["streams"].get(str(fd)) == "closed" else os.fdopen(fd, "w", encoding="utf-8")
+            for fd in (1, 2)
+        )  # as Python does as it starts
         _prepare(request)
         sys.argv = ["pinscrew", *request["arguments"]]
         runpy.run_module("pinscrew", run_name="__main__", alter_sys=True)
@@ -162,9 +171,27 @@ def _run(request: Mapping[str, Any], out: int, err: int) -> None:
     except BaseException:
         traceback.print_exc()
     finally:
-        sys.stdout.flush()
-        sys.stderr.flush()
+        for stream in (sys.stdout, sys.stderr):
+            try:
+                stream.flush()
+            except OSError as error:  # as Python does as it ends
+                status = 120
+                os.write(err, f"Exception ignored in: {stream}: {error}\n".encode())
         os._exit(status)
+
+
+def _spoil(number: int, fate: str) -> None:
+    """Let a stream fail."""
+    os.close(number)
+    if fate == "full":
+        os.open("/dev/full", os.O_WRONLY)  # the lowest free number: this one
+    elif fate == "unread":
+        reading, writing = os.pipe()
+        if writing != number:
+            os.dup2(writing, number)
+            os.close(writing)
+        if reading != number:
+            os.close(reading)
 
 
 def _prepare(request: Mapping[str, Any]) -> None:

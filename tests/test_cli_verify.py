@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -212,18 +213,24 @@ def test_jobs(tmp_path: Path) -> None:
 # ------------------------------------------------------------------------------------- narrow terminals
 
 
-def test_narrow_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A check takes one line."""
-    monkeypatch.setattr("pinscrew.cli.output.UNSEEN_WIDTH", 80)
-    lines = ok("verify", "drone", *FEW).out.splitlines()
-    assert lines[0].split() == ["check", "error", "tolerance"]
-    assert all(line.rstrip().endswith(" ok") for line in lines[1:17])
-    assert len(lines) == 18
+@pytest.mark.parametrize("width", [120, 80, 40, 20])
+def test_narrow_terminals_hide_nothing(width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A check's verdict stays in its row; what has no room stands below it."""
+    monkeypatch.setattr("pinscrew.cli.output.UNSEEN_WIDTH", width)
+    *table, summary = ok("verify", "drone", *FEW).out.splitlines()
+    assert "agree" in summary
+    assert max(map(len, table)) <= width
+    rows = [line for line in table if not line.startswith(" ")]
+    assert sum("ok" in line.split() for line in rows) == 16
+    words = " ".join(" ".join(table).split())
+    assert words.count("frame ") == 13  # all but the structure, home poses and screws, which are exact
+    assert len(re.findall(r"\d\.\de[+-]\d\d", words)) == 32
 
 
 @WRONG
 def test_failures_on_narrow_terminals(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("pinscrew.cli.output.UNSEEN_WIDTH", 80)
     lines = run("verify", "scara", *FEW).out.splitlines()
-    assert sum(line.rstrip().endswith(" FAIL") for line in lines[1:17]) == 3
-    assert lines[17] == "home poses: error 1.0e-03 above 1.0e-12, largest at frame link3, joint joint3, zero"
+    assert sum(line.endswith(" FAIL") for line in lines) == 3
+    place = lines.index(next(line for line in lines if line.startswith("home poses")))
+    assert lines[place + 1] == "  largest at: frame link3, joint joint3, zero"

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
+import errno
 import io
 import os
 import sys
 import traceback
 import warnings
+from collections.abc import Iterator
 from importlib import import_module
 from typing import Any, Final
 
 import click
 
 from pinscrew import __version__
+from pinscrew.cli.output import say
 from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 
 __all__ = ["command", "main"]
@@ -33,9 +37,36 @@ _COMMANDS: Final = {
     "workspace": "pinscrew.cli.workspace",
 }
 
+INTERRUPTED: Final = 130
+"""Exit status after Ctrl-C: 128 and the number of SIGINT."""
+BROKEN_PIPE: Final = 141
+"""Exit status when nobody reads our output any more: 128 and the number of SIGPIPE."""
+_UNWRITTEN: Final = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF, errno.EPIPE})
+"""What writing to a stream may end with."""
+
+
+class _Unread(Exception):  # noqa: N818 (it says what happened)
+    """Nobody reads our output any more. click would end with status 1 where it sees the error itself."""
+
+
+@contextlib.contextmanager
+def _read() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise _Unread from None
+
 
 class _Group(click.Group):
     """Subcommands, each imported when it is called or listed."""
+
+    def make_context(self, *args: Any, **options: Any) -> click.Context:
+        with _read():  # help is printed here
+            return super().make_context(*args, **options)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        with _read():
+            return super().invoke(ctx)
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 (click's signature)
         return sorted(_COMMANDS)
@@ -68,33 +99,89 @@ def command() -> None:
 
 
 def main() -> None:
-    """Run the command.
+    """Run the command, and exit with its status.
 
     Every error of pinscrew ends in one line and exit status 2. Status 1 is kept for engines that disagree, so a
-    mistake of ours, which ends in a traceback, has status 2 too, and Ctrl-C 130 as in a shell.
+    mistake of ours, which ends in a traceback, has status 2 too. As in a shell, Ctrl-C has 130, and a reader of our
+    output that has had enough 141. Output that can't be written, to a full disk say, is an error.
     """
+    _open_streams()
+    warnings.showwarning = _show_warning
+    try:
+        status = _run()
+        for stream in (sys.stdout, sys.stderr):
+            stream.flush()  # now, and not when Python ends, where an error would be told by a traceback
+    except (_Unread, BrokenPipeError):
+        status = BROKEN_PIPE
+        _silence()
+    except OSError as error:
+        if not _of_a_stream(error):
+            raise
+        status = 2
+        with contextlib.suppress(OSError):
+            sys.stderr.write(f"pinscrew: the output can't be written ({error.strerror})\n")
+            sys.stderr.flush()
+        _silence()
+    sys.exit(status)
+
+
+def _run() -> int:
+    """Run the command; its exit status."""
+    try:
+        command(prog_name="pinscrew", standalone_mode=False)
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
+    except PinscrewError as error:
+        say(f"pinscrew: {error}", err=True)
+        return 2
+    except click.ClickException as error:
+        shown = io.StringIO()
+        error.show(shown)
+        say(*shown.getvalue().expandtabs().rstrip("\n").split("\n"), err=True)
+        return error.exit_code
+    except (click.Abort, KeyboardInterrupt):
+        return INTERRUPTED
+    except Exception as error:
+        if _of_a_stream(error) or isinstance(error, _Unread):
+            raise
+        traceback.print_exc()
+        return 2
+    return 0
+
+
+def _of_a_stream(error: Exception) -> bool:
+    """Whether an error is of writing to a stream: no file is named in it, as one is where a file can't be opened."""
+    return isinstance(error, OSError) and error.filename is None and error.errno in _UNWRITTEN
+
+
+def _open_streams() -> None:
+    """Let no standard stream be closed, and none refuse a character.
+
+    A file that is opened while one is closed would get its number, and what is printed would go there.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free: this one
+    sys.stdout = sys.stdout or open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115 (open to the end)
+    sys.stderr = sys.stderr or open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # names from a file, or ω, may not be in its encoding
             stream.reconfigure(errors="backslashreplace")
-    warnings.showwarning = _show_warning
-    try:
-        sys.exit(command(prog_name="pinscrew", standalone_mode=False))
-    except PinscrewError as error:
-        click.echo(f"pinscrew: {error}", err=True)
-        sys.exit(2)
-    except click.ClickException as error:
-        error.show()
-        sys.exit(error.exit_code)
-    except (click.Abort, KeyboardInterrupt):
-        sys.exit(130)
-    except BrokenPipeError:  # whoever read our output has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(1)
-    except Exception:
-        traceback.print_exc()
-        sys.exit(2)
+
+
+def _silence() -> None:
+    """Send what is still in the streams' buffers nowhere: Python writes it as it ends."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError):
+            stream.flush()
+            continue
+        with contextlib.suppress(io.UnsupportedOperation):  # a stream without a file, in tests
+            os.dup2(nowhere, stream.fileno())
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
     if issubclass(category, PinscrewWarning):
-        click.echo(f"pinscrew: warning: {message}", err=True)
+        say(f"pinscrew: warning: {message}", err=True)

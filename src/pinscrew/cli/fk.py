@@ -45,8 +45,7 @@ def command(words: tuple[str, ...], values: str | None, tip: str | None, as_json
         }
         output.print_json(document)
     else:
-        click.echo(f"{frame} in {robot.base}:")
-        click.echo("\n".join(output.matrix_lines(T_base_frame)))
-        click.echo(f"PoE and Pinocchio differ by {error:.1e}", err=True)
+        output.say(f"{frame} in {robot.base}:", *output.matrix_lines(T_base_frame))
+        output.say(f"PoE and Pinocchio differ by {error:.1e}", err=True)
     if not error <= TOLERANCE:
         sys.exit(1)

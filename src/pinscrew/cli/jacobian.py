@@ -56,9 +56,9 @@ def command(words: tuple[str, ...], values: str | None, kind: str, tip: str | No
         }
         output.print_json(document)
     else:
-        click.echo(f"{which} Jacobian of {frame}; columns: {', '.join(robot.velocity_names)}")
+        output.say(f"{which} Jacobian of {frame}; columns: {', '.join(robot.velocity_names)}")
         for row, line in zip(_ROWS, output.matrix_lines(J), strict=True):
-            click.echo(f"{row}  {line}")
-        click.echo(f"PoE and Pinocchio differ by {error:.1e}", err=True)
+            output.say(f"{row}  {line}")
+        output.say(f"PoE and Pinocchio differ by {error:.1e}", err=True)
     if not error <= TOLERANCE:
         sys.exit(1)

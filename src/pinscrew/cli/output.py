@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import json
+import errno
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -10,41 +11,49 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from pinscrew.ground import files
+from pinscrew.ground.escaping import json_text, terminal
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
 
+    from pinscrew.cli.tables import Table
     from pinscrew.ground.typing import FloatArray
 
-__all__ = ["NARROW", "console", "matrix_lines", "plain", "print_json", "table", "write_file"]
+__all__ = ["console", "matrix_lines", "plain", "print_json", "say", "table", "write_file"]
 
 UNSEEN_WIDTH: Final = 160
 """Columns of a table that goes to a file or a pipe."""
-NARROW: Final = 100
-"""Columns below which a table shows less."""
 
 
 def console(*, stderr: bool = False) -> Console:
     """A console for tables on standard output, or for progress on standard error."""
     from rich.console import Console
 
+    class OurConsole(Console):
+        def on_broken_pipe(self) -> None:
+            raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))  # for `main`; rich would end with status 1
+
     stream = sys.stderr if stderr else sys.stdout
     width = None if stream.isatty() else UNSEEN_WIDTH
-    return Console(file=stream, width=width, highlight=False, markup=False, emoji=False)
+    return OurConsole(file=stream, width=width, highlight=False, markup=False, emoji=False)
 
 
-def table(first: str, *others: str) -> Table:
-    """A table with these headings; in a narrow terminal names in its first column stay whole the longest."""
-    from rich.table import Column, Table
+def table(*headings: str) -> Table:
+    """A table with these headings; see `tables.Table` for what it does in a narrow terminal."""
+    from pinscrew.cli.tables import Table
 
-    columns = (Column(first, no_wrap=True), *(Column(name, overflow="fold") for name in others))
-    return Table(*columns, box=None, pad_edge=False)
+    return Table(*headings)
 
 
 def print_json(document: Any) -> None:
     """Print a document of plain data as JSON."""
-    click.echo(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False))
+    click.echo(json_text(document))
+
+
+def say(*lines: str, err: bool = False) -> None:
+    """Print lines for a person; what a name from a file would do to a terminal or a log is shown, and not done."""
+    for line in lines:
+        click.echo(terminal(line), err=err)
 
 
 def plain(values: FloatArray) -> Any:

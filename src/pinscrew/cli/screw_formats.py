@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from pinscrew.cli.output import plain
+from pinscrew.ground.escaping import csv_row, json_text
+from pinscrew.ground.escaping_code import matlab_comment, python_comment
 
 if TYPE_CHECKING:
     from pinscrew.ground.typing import FloatArray
@@ -73,26 +72,23 @@ def _json(s: Screws) -> str:
         "screws": plain(s.ordered(s.axes)),
         "home": plain(s.home),
     }
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+    return json_text(document)
 
 
 def _csv(s: Screws) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(("joint", *s.rows))
-    writer.writerows((name, *axis) for name, axis in zip(s.names, plain(s.ordered(s.axes).T), strict=True))
-    return text.getvalue().rstrip("\n")
+    rows = ((name, *axis) for name, axis in zip(s.names, plain(s.ordered(s.axes).T), strict=True))
+    return "\n".join(map(csv_row, (("joint", *s.rows), *rows)))
 
 
 def _words(s: Screws) -> tuple[str, str]:
     """What the axes and the home pose are, for a comment in code."""
     frame = s.tip if s.at == "body" else s.base
     axes = f"{s.at} screw axes in {frame}: rows {', '.join(s.rows)}; columns {', '.join(s.names)}"
-    return " ".join(axes.split()), " ".join(f"home pose: {s.tip} in {s.base}".split())
+    return axes, f"home pose: {s.tip} in {s.base}"
 
 
 def _python(s: Screws) -> str:
-    axes, home = _words(s)
+    axes, home = map(python_comment, _words(s))
     lines = ["import numpy as np", "", f"# {axes}", *_array("screws", plain(s.ordered(s.axes)))]
     return "\n".join((*lines, "", f"# {home}", *_array("M", plain(s.home))))
 
@@ -102,7 +98,7 @@ def _array(name: str, rows: Sequence[Sequence[float]]) -> list[str]:
 
 
 def _matlab(s: Screws) -> str:
-    axes, home = _words(s)
+    axes, home = map(matlab_comment, _words(s))
     lines = [f"% {axes}", *_brackets("screws", plain(s.ordered(s.axes)))]
     return "\n".join((*lines, "", f"% {home}", *_brackets("M", plain(s.home))))
 

@@ -97,17 +97,17 @@ def _print_table(found: Screws, robot: Robot) -> None:
             f"{screw.magnitude:.6g}",
         )
         table.add_row(name, *row)
-    click.echo(f"{found.robot}: {found.at} screw axes of {found.tip}, in {frame} (m, rad; pitch in m/rad)")
+    output.say(f"{found.robot}: {found.at} screw axes of {found.tip}, in {frame} (m, rad; pitch in m/rad)")
     output.console().print(table)
     if still:
-        click.echo(f"not moving {found.tip}: {', '.join(still)}")
+        output.say(f"not moving {found.tip}: {', '.join(still)}")
     for index in robot.motions_above(found.tip):
         motion = robot.mechanism.motions[index]
         if motion.joint.mimic is not None:
             master = robot.velocity_names[motion.v]
-            click.echo(f"{motion.joint.name} follows {master} times {motion.multiplier:.6g}, and is in its screw")
-    click.echo(f"\nhome pose M: {found.tip} in {found.base} at zero")
-    click.echo("\n".join(output.matrix_lines(found.home)))
+            output.say(f"{motion.joint.name} follows {master} times {motion.multiplier:.6g}, and is in its screw")
+    output.say("", f"home pose M: {found.tip} in {found.base} at zero")
+    output.say(*output.matrix_lines(found.home))
 
 
 def _numbers(values: Any) -> str:

@@ -116,10 +116,10 @@ def command(
 def _print(found: Track, index: int) -> None:
     run, recovered, drift = found.trajectory, found.recovered, found.trajectory.drift
     robot = run.robot
-    click.echo(f"{robot.name}: {run.frame} in {robot.base}, {run.steps} steps of {run.dt:g} s, scheme {run.scheme}")
-    click.echo(f"\nat t = {run.t[index]:.12g} s")
+    output.say(f"{robot.name}: {run.frame} in {robot.base}, {run.steps} steps of {run.dt:g} s, scheme {run.scheme}")
+    output.say("", f"at t = {run.t[index]:.12g} s")
     for name, q in zip(robot.coordinate_names, run.q[index], strict=True):
-        click.echo(f"  {name} = {_digits(q)}")
+        output.say(f"  {name} = {_digits(q)}")
     table = output.table("velocity", "given", "recovered")
     for i, name in enumerate(robot.velocity_names):
         table.add_row(name, _digits(run.qd[index, i]), _digits(recovered.qd[index, i]))
@@ -131,26 +131,26 @@ def _print(found: Track, index: int) -> None:
         ("increment dx = v δt (m)", increment[:3]),
         ("increment δφ = ω δt (rad)", increment[3:]),
     ):
-        click.echo(f"{label:27s}{'  '.join(_digits(x).rjust(11) for x in vector)}")
+        output.say(f"{label:27s}{'  '.join(_digits(x).rjust(11) for x in vector)}")
     _matrix("hybrid Jacobian J, its rows (v, ω)", found.jacobians[index])
     _matrix(f"A({run.t[index]:.12g} s), the pose", run.poses[index])
     if index < run.steps:
         _matrix(f"A({run.t[index + 1]:.12g} s), the pose after the step", run.poses[index + 1])
-    click.echo(f"\nat all of the {run.steps + 1} times")
-    click.echo(f"  recovered rates differ from the given ones by at most {found.rate_error:.1e}")
-    click.echo(f"  condition of J at most {recovered.condition.max():.3g}")
+    output.say("", f"at all of the {run.steps + 1} times")
+    output.say(f"  recovered rates differ from the given ones by at most {found.rate_error:.1e}")
+    output.say(f"  condition of J at most {recovered.condition.max():.3g}")
     lengths = ", ".join(f"{length:.6f}" for length in drift.column_lengths[-1])
-    click.echo(f"  ‖RᵀR - I‖ at most {drift.orthogonality.max():.1e}; columns of R at the end {lengths}")
-    click.echo(
+    output.say(f"  ‖RᵀR - I‖ at most {drift.orthogonality.max():.1e}; columns of R at the end {lengths}")
+    output.say(
         f"  off the pose of the coordinates by at most {drift.position.max():.1e} m and {drift.angle.max():.1e} rad, "
         f"at the end {drift.position[-1]:.1e} m and {drift.angle[-1]:.1e} rad"
     )
 
 
 def _matrix(title: str, values: FloatArray) -> None:
-    click.echo(f"{title}:")
+    output.say(f"{title}:")
     for line in output.matrix_lines(values):
-        click.echo(f"  {line}")
+        output.say(f"  {line}")
 
 
 def _digits(value: float) -> str:

@@ -93,7 +93,7 @@ def command(
         click.echo(f"{agreeing} of {len(named)} robots: {engines} agree to rounding error on every {frame}")
     for attempt in attempts:
         for error in attempt.errors:
-            click.echo(f"pinscrew: {error}", err=True)
+            output.say(f"pinscrew: {error}", err=True)
     wanted.write(outcome)
     if not all(report.ok for report in reports):
         sys.exit(1)
@@ -151,7 +151,7 @@ def _warn(remarks: Sequence[PinscrewWarning], *, brief: bool) -> None:
     """Show the remarks about one robot; in brief the first of them and how many more there are."""
     for remark in remarks[:1] if brief else remarks:
         more = f" (and {len(remarks) - 1} more remarks on this file)" if brief and len(remarks) > 1 else ""
-        click.echo(f"pinscrew: warning: {remark}{more}", err=True)
+        output.say(f"pinscrew: warning: {remark}{more}", err=True)
 
 
 def _verify(robot: Robot, samples: int, seed: int, frames: tuple[str, ...], against: str | None = None) -> Report:
@@ -170,19 +170,16 @@ def _print_checks(report: ReportData) -> None:
 
     from pinscrew.reporting.document import Strong
     from pinscrew.verification.document import table
-    from pinscrew.verification.wording import details, failures, summary
+    from pinscrew.verification.wording import details, summary
 
-    console = output.console()
-    wide = console.width >= output.NARROW
     checks = table(report)
-    shown = output.table(*checks.columns[: None if wide else -1])
+    shown = output.table(*checks.columns)
     for row in checks.rows:
         *numbers, mark, where = row
         style = "bold red" if isinstance(mark, Strong) else "green"
-        shown.add_row(*numbers, Text(mark, style), *[Text(where)] * wide)
-    console.print(shown)
-    for line in (*([] if wide else failures(report)), *details(report), summary(report)):
-        click.echo(line)
+        shown.add_row(*numbers, Text(mark, style), where)
+    output.console().print(shown)
+    output.say(*details(report), summary(report))
 
 
 def _print_summary(reports: Sequence[ReportData], *, pairs: bool) -> None:
@@ -194,10 +191,10 @@ def _print_summary(reports: Sequence[ReportData], *, pairs: bool) -> None:
     table = output.table("robot", "engines", *["compared"] * pairs, "largest error", "frames", "configurations")
     for report in reports:
         mark = Text("agree", "green") if report.ok else Text("DISAGREE", "bold red")
-        compared = [Text(", ".join(report.engines))] * pairs
+        compared = [", ".join(report.engines)] * pairs
         numbers = (f"{report.largest_difference:.1e}", str(report.frames), str(report.configurations))
-        table.add_row(Text(report.robot), mark, *compared, *numbers)
+        table.add_row(report.robot, mark, *compared, *numbers)
     output.console().print(table)
     for report in reports:
         if not report.ok:
-            click.echo("\n".join((summary(report), *failures(report), *details(report))))
+            output.say(summary(report), *failures(report), *details(report))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import click
 import numpy as np
 
 from pinscrew.cli import output
@@ -71,11 +70,11 @@ def print_sweep(document: dict[str, Any]) -> None:
     grid = document.get("grid")
     how = f"a grid of {' × '.join(map(str, grid.values()))}" if grid else f"seed {document['seed']}"
     names = f"{document['frame']} in {document['base']}"
-    click.echo(f"{document['robot']}, {names}: {document['configurations']} configurations, {how}")
+    output.say(f"{document['robot']}, {names}: {document['configurations']} configurations, {how}")
     rows = dict(document["positions"])
     for part, of in (("translation", document["translation"]), ("rotation", document["rotation"])):
         if not of["rank"]:
-            click.echo(f"there is no {part}")
+            output.say(f"there is no {part}")
             continue
         rows[f"{part}: manipulability"] = of["manipulability"]
         rows[f"{part}: smallest singular value"] = of["smallest"]
@@ -84,15 +83,15 @@ def print_sweep(document: dict[str, Any]) -> None:
     if "comparison" in document:
         compared = document["comparison"]
         where = f"from frame 0 at {compared['frame0']}, brought to {document['base']}"
-        click.echo(f"{where}: positions differ by {compared['largest_distance']:.1e} m at most")
+        output.say(f"{where}: positions differ by {compared['largest_distance']:.1e} m at most")
 
 
 def print_map(document: dict[str, Any]) -> None:
     """Print a map's document for reading."""
     names = f"{document['frame']} in {document['base']}"
     samples = f"{document['samples']} samples, seed {document['seed']}"
-    click.echo(f"{document['robot']}, {names}: {document['voxels']} voxels of {document['voxel']:g} m, {samples}")
-    click.echo(f"volume {document['volume']:.6g} m³")
+    output.say(f"{document['robot']}, {names}: {document['voxels']} voxels of {document['voxel']:g} m, {samples}")
+    output.say(f"volume {document['volume']:.6g} m³")
     rows = {**document["positions"], "samples per voxel": document["samples_per_voxel"]}
     rows["part of approach directions"] = document["coverage"]
     if document["rank"]:

@@ -2,36 +2,70 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import os
+import re
+import secrets
+import stat
 from pathlib import Path
+from typing import Final
 
 from pinscrew.ground.errors import InputError
 
 __all__ = ["append", "write"]
 
+_STREAM: Final = re.compile("/dev/(?:(stdout|stderr)|fd/([0-9]{1,9}))")
+"""An open stream, which may be a file that is not to be replaced: another process may hold it too."""
+_NUMBERS: Final = {"stdout": 1, "stderr": 2}
+
 
 def write(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all: its name appears, or changes its content, only once everything is on disk.
+    """Write a file whole or not at all: its name appears, or changes its content, only once everything is written.
+
+    A file that is there keeps its mode and, where we may give it, its owner. One that nobody may write to is not
+    replaced, not even by root, and neither is one that we may not write to, though its folder would let us.
 
     Args:
-        path: the file; a device or a pipe, such as ``/dev/stdout``, is written to directly.
+        path: the file, or a link to it; a device, a pipe, or a stream of ours such as ``/dev/stdout``, is written to
+            as it is.
         data: its content.
 
     Raises:
         InputError: if it can't be written.
     """
     try:
-        if path.exists() and not path.is_file():
-            path.write_bytes(data)
+        stream = _STREAM.fullmatch(str(path))
+        if stream is not None:
+            with os.fdopen(os.dup(_NUMBERS.get(stream[1]) or int(stream[2])), "wb") as file:
+                file.write(data)
             return
-        temporary = path.resolve().with_name(f".{path.name}.{os.getpid()}")
-        try:
-            temporary.write_bytes(data)
-            temporary.replace(path.resolve())
-        finally:
-            temporary.unlink(missing_ok=True)
-    except (OSError, ValueError) as error:  # ValueError: a NUL character in the path
+        target = path.resolve()
+        known = target.stat() if target.exists() else None
+        if known is not None and not stat.S_ISREG(known.st_mode):
+            target.write_bytes(data)
+        else:
+            _replace(target, data, known)
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL character in the path; links in a circle
         raise _unwritable(path, error) from None
+
+
+def _replace(target: Path, data: bytes, known: os.stat_result | None) -> None:
+    if known is not None and not (known.st_mode & 0o222 and os.access(target, os.W_OK)):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    temporary = target.with_name(f".pinscrew.{secrets.token_hex(8)}")  # short: the name itself may be the longest
+    private = 0o600 if known is not None else 0o666  # less what the user's mask takes away
+    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, private)
+    try:
+        with os.fdopen(descriptor, "wb") as stream:
+            stream.write(data)
+            if known is not None:
+                with contextlib.suppress(PermissionError):
+                    os.fchown(stream.fileno(), known.st_uid, known.st_gid)
+                os.fchmod(stream.fileno(), stat.S_IMODE(known.st_mode))
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
 
 
 def append(path: Path, data: bytes) -> None:

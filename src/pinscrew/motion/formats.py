@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from typing import Any
 
 import numpy as np
 
+from pinscrew.ground.escaping import csv_row
 from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.track import Track
 
@@ -58,12 +58,9 @@ def document(track: Track, index: int) -> dict[str, Any]:
 
 def to_csv(track: Track) -> str:
     """A row for each time; columns such as ``q.joint1``, ``recovered.joint1``, ``vx``, ``T11`` and ``drift.angle``."""
-    out = io.StringIO(newline="")
     columns = dict(_columns(track))
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows((np.stack(list(columns.values()), axis=-1) + 0.0).tolist())
-    return out.getvalue()
+    rows = (np.stack(list(columns.values()), axis=-1) + 0.0).tolist()
+    return "".join(f"{csv_row(row)}\n" for row in (columns, *rows))
 
 
 def to_npz(track: Track) -> bytes:

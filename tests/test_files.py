@@ -1,0 +1,148 @@
+"""Files are written whole or not at all, and stay whose they are."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from pinscrew.ground import files
+from pinscrew.ground.errors import InputError
+
+
+def mode(path: Path) -> int:
+    return stat.S_IMODE(path.stat().st_mode)
+
+
+def names(folder: Path) -> list[str]:
+    return [path.name for path in folder.iterdir()]
+
+
+def test_a_new_file_has_the_mode_that_the_mask_leaves(tmp_path: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        files.write(tmp_path / "a", b"1")
+    finally:
+        os.umask(before)
+    assert (tmp_path / "a").read_bytes() == b"1"
+    assert mode(tmp_path / "a") == 0o640
+
+
+@pytest.mark.parametrize("bits", [0o600, 0o644, 0o755, 0o200, 0o4711])
+def test_a_file_keeps_its_mode(tmp_path: Path, bits: int) -> None:
+    path = tmp_path / "a"
+    path.write_bytes(b"1")
+    path.chmod(bits)
+    files.write(path, b"22")
+    assert mode(path) == bits
+    path.chmod(0o600)
+    assert path.read_bytes() == b"22"
+    assert names(tmp_path) == ["a"]
+
+
+@pytest.mark.parametrize("bits", [0o444, 0o400, 0o555, 0])
+def test_what_nobody_may_write_is_not_replaced(tmp_path: Path, bits: int) -> None:
+    """Not even by root, who may do all."""
+    path = tmp_path / "a"
+    path.write_bytes(b"1")
+    path.chmod(bits)
+    with pytest.raises(InputError) as caught:
+        files.write(path, b"2")
+    assert (caught.value.code, caught.value.where) == ("unwritable", str(path))
+    assert mode(path) == bits
+    path.chmod(0o600)
+    assert path.read_bytes() == b"1"
+    assert names(tmp_path) == ["a"]
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root has files that are another's")
+def test_a_file_keeps_its_owner(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_bytes(b"1")
+    os.chown(path, 65534, 65534)
+    files.write(path, b"2")
+    assert (path.stat().st_uid, path.stat().st_gid) == (65534, 65534)
+
+
+@pytest.mark.parametrize("name", ["a" * 255, "é" * 127, "a\nb", "=1", "-x"])
+def test_names_that_a_folder_can_have(tmp_path: Path, name: str) -> None:
+    files.write(tmp_path / name, b"1")
+    files.write(tmp_path / name, b"2")
+    assert (tmp_path / name).read_bytes() == b"2"
+    assert names(tmp_path) == [name]
+
+
+@pytest.mark.parametrize("name", ["a" * 256, "é" * 128, "a\0b", "folder", "file/b", "no/b", "loop"])
+def test_names_that_it_can_not(tmp_path: Path, name: str) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").touch()
+    (tmp_path / "loop").symlink_to("loop")
+    before = sorted(names(tmp_path))
+    with pytest.raises(InputError) as caught:
+        files.write(tmp_path / name, b"1")
+    assert caught.value.code == "unwritable"
+    assert sorted(names(tmp_path)) == before
+
+
+def test_links_are_followed(tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to("folder/file")
+    (tmp_path / "folder").mkdir()
+    for text in (b"1", b"2"):
+        files.write(tmp_path / "link", text)
+        assert (tmp_path / "link").is_symlink()
+        assert (tmp_path / "folder" / "file").read_bytes() == text
+
+
+def test_devices_are_written_to_directly(tmp_path: Path) -> None:
+    files.write(Path(os.devnull), b"1")
+    assert Path(os.devnull).is_char_device()
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    end = os.open(pipe, os.O_RDWR)
+    files.write(pipe, b"12")
+    assert os.read(end, 3) == b"12"
+    os.close(end)
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+@pytest.mark.skipif(not Path("/dev/fd").exists(), reason="there is no /dev/fd")
+def test_open_streams_are_written_to_where_they_are(tmp_path: Path) -> None:
+    """A file that is another's output too, as with ``>> log``, is neither replaced nor cut."""
+    with (tmp_path / "a").open("ab") as stream:
+        stream.write(b"1")
+        stream.flush()
+        files.write(Path(f"/dev/fd/{stream.fileno()}"), b"2")
+        stream.write(b"3")
+    assert (tmp_path / "a").read_bytes() == b"123"
+    with pytest.raises(InputError):
+        files.write(Path("/dev/fd/999999"), b"1")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_a_full_disk_is_told() -> None:
+    for function in (files.write, files.append):
+        with pytest.raises(InputError) as caught:
+            function(Path("/dev/full"), b"1")
+        assert "No space left" in caught.value.what
+
+
+def test_nothing_is_left_of_what_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    (tmp_path / "a").write_bytes(b"1")
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(InputError):
+        files.write(tmp_path / "a", b"2")
+    assert names(tmp_path) == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"1"
+
+
+def test_append(tmp_path: Path) -> None:
+    files.append(tmp_path / "a", b"1")
+    files.append(tmp_path / "a", b"2")
+    assert (tmp_path / "a").read_bytes() == b"12"
+    with pytest.raises(InputError):
+        files.append(tmp_path / "no" / "a", b"1")
