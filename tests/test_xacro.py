@@ -91,16 +91,30 @@ VALUES: Final = {
     "${xacro.tokenize('a, b;c d')}": "['a', 'b', 'c', 'd']",
     "${xacro.tokenize('a:b', ':')[1]}": "b",
     "${xacro.dotify(dict(a=dict(b=3))).a.b}": "3",
+    "${'1 2 3'.split()} ${'1 2 3'.split()[1]} ${'a,b,,c'.split(',')} ${'a,b,c'.split(',', 1)}": None,
+    "${[float(x) for x in '1 2 3'.split()]}": "[1.0, 2.0, 3.0]",
+    "${'a b'.split(sep=' ', maxsplit=1)} ${'a.b.c'.rsplit('.', maxsplit=1)[0]}": "['a', 'b'] a.b",
+    "${'Left'.lower()} ${'left'.upper()} ${' x '.strip()} ${'xyx'.strip('x')} ${'left'.capitalize()}": None,
+    "${' '.join(['1', '2'])} ${','.join(str(2*x) for x in [1, 2])} ${''.join([])}": "1 2 2,4 ",
+    "${'left_leg'.startswith('left')} ${'left_leg'.endswith(('arm', 'leg'))}": "True True",
+    "${'left_leg'.replace('left', 'right')} ${'aaa'.replace('a', 'bb', 2)} ${'ab'.replace('', '-')}": None,
+    "${'abc'.index('b')} ${'abcb'.count('b')} ${'abc'.find('z')} ${[1, 2].index(2)} ${(1, 1).count(1)}": "1 2 -1 1 2",
+    "${dict(a=1).get('a')} ${dict(a=1).get('b', 7)} ${dict(a=1).get('b')}": "1 7 None",
+    "${list(dict(a=1, b=2).keys())} ${list(dict(a=1).values())} ${list(dict(a=1).items())}": None,
+    "${'a' in dict(a=1).keys()} ${[k + str(v) for k, v in dict(a=1, b=2).items()]}": "True ['a1', 'b2']",
+    "${'1.5'.isdigit()} ${'15'.isdigit()} ${'a=b'.partition('=')[2]}": "False True b",
+    "${list(map('ab'.count, 'abb'))}": "[1, 1, 1]",
 }
 
 
 @pytest.mark.parametrize(("text", "expected"), VALUES.items(), ids=VALUES)
 def test_values(text: str, expected: str | None, tmp_path: Path) -> None:
-    """Each as an attribute: its value, and that xacro makes the same of it (None: only we have the function)."""
+    """Each as an attribute: that xacro makes the same of it (but for functions that only we have), and its value."""
     file = write(tmp_path, {"r.xacro": robot(f'<x value="{text}"/>')})
     expanded = expand(file, {})
-    if expected is not None:
+    if ("min(" not in text and "sum([x**2" not in text) or "python.sum" in text:
         assert expanded == plain(file)
+    if expected is not None:
         (x,) = markup.parse(expanded, file).all("x")
         assert x.attributes["value"] == expected
 
@@ -215,6 +229,22 @@ FILES: Final[dict[str, tuple[dict[str, str], dict[str, str]]]] = {
             "angle: !degrees 180\nlength: !millimeters 2*500\n",
         },
     ),
+    "methods of YAML": (
+        {},
+        {
+            "r.xacro": robot(
+                '<xacro:property name="c" value="${xacro.load_yaml(\'arm.yaml\')}"/>'
+                "<x a=\"${list(c.keys())} ${c.get('no', 3)} ${c.joints.index('b')} ${c['text'].split()[1]}\"/>"
+                "<x a=\"${[k for k, v in c.limits.items()]} ${sorted(list(c['limits'].values()))[0]}\"/>"
+                "<x a=\"${c.get('limits')['a']} ${'joints' in c.keys()} ${'_'.join(c.joints)} ${c.text.upper()}\"/>"
+            ),
+            "arm.yaml": "joints: [a, b]\nlimits: {a: 2, b: 1}\ntext: some words\n",
+        },
+    ),
+    "arguments that are only used": (
+        {"sim": "true", "prefix": "p_"},
+        {"r.xacro": robot('<xacro:if value="$(arg sim)"><x v="$(arg prefix)a ${xacro.arg(\'prefix\')}"/></xacro:if>')},
+    ),
     "extensions and comments": (
         {},
         {
@@ -308,6 +338,47 @@ def test_find_upwards(tmp_path: Path) -> None:
         assert length(write(tmp_path, inside)) == 0.25
 
 
+WORKSPACE: Final = {
+    "siblings": ("ws/robot/urdf/r.xacro", "ws/arm", ("ws/robot/package.xml",)),
+    "a sibling of another name": ("ws/robot/urdf/r.xacro", "ws/arm_v2", ("ws/robot/package.xml",)),
+    "a repository": ("repo/robots/robot/r.xacro", "repo/common/parts/arm_v2", ("repo/.git/HEAD",)),
+    "a submodule": ("repo/robots/robot/r.xacro", "repo/common/arm", ("repo/.git",)),
+    "repositories of a workspace": ("ws/src/a/robot/r.xacro", "ws/src/b/arm", ("ws/src/a/.git/HEAD",)),
+    "a workspace": ("ws/src/robot/r.xacro", "ws/src/b/c/arm_v2", ()),
+}
+
+
+@pytest.mark.parametrize("name", WORKSPACE)
+def test_packages_beside_the_file(name: str, tmp_path: Path) -> None:
+    """What is found may be read: by include, by YAML, and by the path that it is found at, in every spelling."""
+    robot_file, arm, more = WORKSPACE[name]
+    bodies = {
+        "find": '<xacro:include filename="$(find arm)/urdf/arm.xacro"/>',
+        "file": '<xacro:include filename="file://$(find arm)/urdf/arm.xacro"/>',
+        "package": '<xacro:include filename="package://arm/urdf/arm.xacro"/>',
+        "path": f'<xacro:include filename="{tmp_path}/{arm}/urdf/arm.xacro"/>',
+        "YAML": '<xacro:property name="y" value="${xacro.load_yaml(\'$(find arm)/arm.yaml\')}"/>'
+        '<xacro:property name="length" value="${y.l}"/>',
+    }
+    files = {f"{arm}/package.xml": PACKAGE, f"{arm}/urdf/arm.xacro": ARM, f"{arm}/arm.yaml": "l: 0.25"}
+    write(tmp_path, {**files, **dict.fromkeys(more, "<package><name>robot</name></package>")})
+    for body in bodies.values():
+        assert length(write(tmp_path, {robot_file: robot(body + joint("${length} 0 0"))})) == 0.25
+
+
+@pytest.mark.parametrize("body", ["$(find arm)/urdf/arm.xacro", "../arm/urdf/arm.xacro", "$(find arm)/../x.xacro"])
+def test_what_is_no_package_may_not_be_read(body: str, tmp_path: Path) -> None:
+    """A folder beside a package may be anyone's: only with a ``package.xml`` is it one."""
+    include = f'<xacro:include filename="{body}"/>'
+    own = {"ws/robot/package.xml": "<package><name>robot</name></package>", "ws/x.xacro": ARM}
+    file = write(tmp_path, {"ws/robot/r.xacro": robot(include + joint("0 0 0")), "ws/arm/urdf/arm.xacro": ARM, **own})
+    if "x.xacro" in body:
+        write(tmp_path, {"ws/arm/package.xml": PACKAGE})
+    with pytest.raises(XacroError) as caught:
+        ps.load(file)
+    assert caught.value.code == "outside"
+
+
 def test_nothing_is_remembered(tmp_path: Path) -> None:
     """Two robots with packages of one name get each their own."""
     lengths = []
@@ -358,13 +429,92 @@ def test_warnings_are_passed_on(tmp_path: Path) -> None:
     assert any("matched no files" in message for message in said)
 
 
-def test_lines_are_those_of_the_expansion(tmp_path: Path) -> None:
-    file = write(tmp_path, {"r.xacro": robot("<!-- one -->\n" * 5 + joint("0 ${'x'} 0"))})
+def test_lines_are_those_of_the_source(tmp_path: Path) -> None:
+    """What is wrong in the expansion is told at the element that it comes from, in the file and macro that has it."""
+    bad = joint("0 ${'x'} 0")
+    file = write(tmp_path, {"r.xacro": robot("<!-- one -->\n" * 5 + bad)})
     with pytest.raises(DescriptionError) as caught:
         ps.load(file)
-    expanded = expand(file, {}).splitlines()
-    assert caught.value.line is not None
-    assert '<joint name="j"' in expanded[caught.value.line - 1]
+    assert (caught.value.file, caught.value.line) == (str(file), 8)
+    more = f'<r {NS}>\n\n<xacro:macro name="m">\n\n{bad}\n</xacro:macro>\n</r>'
+    file = write(tmp_path, {"s.xacro": robot('<xacro:include filename="more.xacro"/><xacro:m/>'), "more.xacro": more})
+    with pytest.raises(DescriptionError) as caught:
+        ps.load(file)
+    assert (caught.value.file, caught.value.line) == (str(tmp_path / "more.xacro"), 5)
+    assert str(caught.value).startswith(f"{tmp_path / 'more.xacro'}:5: joint 'j': ")
+
+
+def trouble(file: Path, **arguments: object) -> XacroError:
+    """The error of a file that can't be expanded."""
+    with pytest.raises(XacroError) as caught:
+        ps.load(file, **arguments)  # type: ignore[arg-type]
+    return caught.value
+
+
+def test_places_of_errors(tmp_path: Path) -> None:
+    """Through includes and macros: where the mistake is, in which macros, and where they were called."""
+    util = (
+        f'<r {NS}>\n<xacro:macro name="inner" params="x">\n<a>\n<b v="${{1/x}}"/></a></xacro:macro>\n'
+        '<xacro:macro name="outer" params="x">\n\n<xacro:inner x="${x}"/></xacro:macro></r>'
+    )
+    files = {"sub/util.xacro": util}
+
+    def place(body: str) -> str:
+        error = trouble(
+            write(tmp_path, {"r.xacro": robot(f'<xacro:include filename="sub/util.xacro"/>\n{body}'), **files})
+        )
+        assert error.code == "xacro"
+        return f"{Path(error.file).relative_to(tmp_path)}:{error.line}: {error.what}"
+
+    inner = 'sub/util.xacro:4: in macro "inner", called from '
+    assert place('<xacro:inner x="0"/>').startswith(f"{inner}r.xacro:4: division by zero")
+    calls = f'{inner}util.xacro:7, in macro "outer", called from r.xacro:5: division by zero'
+    assert place('\n<xacro:outer x="0"/>').startswith(calls)
+    # The value of a parameter is the caller's, and so is what it calls a macro with.
+    assert place('<c>\n<xacro:inner x="${1/0}"/></c>').startswith("r.xacro:5: division by zero")
+    assert place('<xacro:outer x="1" y="2"/>').startswith('r.xacro:4: Invalid parameter "y"')
+    assert place('<c v="1"/><c>text\n${no}</c>').startswith("r.xacro:4: name 'no' is not defined")
+    assert place('<xacro:property name="p" value="${1/0}"/>\n\n<c v="${p}"/>').startswith("r.xacro:6: division by zero")
+    deep = "".join(f'<xacro:macro name="m{i}"><xacro:m{i + 1}/></xacro:macro>' for i in range(6))
+    assert "… (6 calls): unknown macro name: xacro:m6" in place(f"{deep}<xacro:m0/>")
+
+
+def test_places_of_warnings_and_joints(tmp_path: Path) -> None:
+    body = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 2"/>'
+    more = f'<r {NS}>\n\n{body}<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></r>'
+    file = write(tmp_path, {"r.xacro": robot('\n\n<xacro:include filename="more.xacro"/>'), "more.xacro": more})
+    with pytest.warns(PinscrewWarning, match="2 long") as caught:
+        loaded = ps.load(file)
+    (warning,) = (w.message for w in caught)
+    assert isinstance(warning, PinscrewWarning)
+    assert (warning.file, warning.line) == (str(tmp_path / "more.xacro"), 3)
+    assert loaded.description.joints[0].line == 3
+
+
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    file = write(tmp_path, {"r.xacro": robot('<xacro:include filename="pipe.xacro"/>')})
+    os.mkfifo(tmp_path / "pipe.xacro")
+    assert "there is no such file" in trouble(file).what
+    write(tmp_path, {"r.xacro": robot("<x v=\"${xacro.load_yaml('pipe.xacro')}\"/>")})
+    assert "there is no such file" in trouble(file).what
+
+
+def test_xacro_in_a_urdf(tmp_path: Path) -> None:
+    """By its content: macros, or values in attributes, under a declared namespace."""
+    bodies = ('<xacro:property name="l" value="0.25"/>' + joint("${l} 0 0"), joint("${1/4} 0 0"))
+    for body in bodies:
+        file = write(tmp_path, {"r.urdf": robot(body)})
+        with pytest.warns(PinscrewWarning, match="was expanded first") as caught:
+            assert length(file) == 0.25
+        assert [w.message.code for w in caught] == ["xacro-content"]  # type: ignore[union-attr]
+    file = write(tmp_path, {"r.urdf": robot('<xacro:arg name="l" default="1"/>' + joint("$(arg l) 0 0"))})
+    with pytest.warns(PinscrewWarning):
+        assert length(file, l=2) == 2.0
+    for body in (joint("1 0 0") + "<!-- <xacro:m/> ${x} -->", "<gazebo>${x}</gazebo>" + joint("1 0 0")):
+        assert length(write(tmp_path, {"r.urdf": robot(body)})) == 1.0
+    write(tmp_path, {"r.urdf": robot(joint("${1} 0 0")).replace(NS, "")})
+    with pytest.raises(DescriptionError, match="not a finite number"):
+        ps.load(tmp_path / "r.urdf")
 
 
 def test_arguments_are_numbers_or_words(tmp_path: Path) -> None:

@@ -3,25 +3,48 @@
 from __future__ import annotations
 
 import json
+import re
+import signal
 import subprocess
 import sys
 import warnings
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from pinscrew.description.markup import Place
 from pinscrew.description.packages import Packages
 from pinscrew.ground.errors import PinscrewWarning, XacroError
 from pinscrew.ground.words import brief, one_line
 
-__all__ = ["MEMORY", "SECONDS", "expand", "is_xacro"]
+__all__ = ["MEMORY", "SECONDS", "Expansion", "expand", "expansion", "is_xacro", "text_is_xacro"]
 
 SECONDS: Final = 8
-"""Time that an expansion may take, on the clock and on the processor."""
+"""Processor time that an expansion may take."""
+PATIENCE: Final = 10
+"""On the clock it may take so many times as long: the machine may be busy with other things."""
 MEMORY: Final = 2**30
 """Bytes that its process may address."""
 
 _WORKER: Final = Path(__file__).with_name("_xacro_worker.py")
+# A file with neither is no xacro; one with both may be, and is looked at more closely.
+_NAMESPACE: Final = re.compile(r"""<robot\b[^>]*\bxmlns:xacro\s*=""")
+_MACRO: Final = re.compile(r"<xacro:\w|[\"'][^<\"']*\$[({]")
+_COMMENT: Final = re.compile(r"<!--.*?-->", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """What a xacro file stands for.
+
+    Attributes:
+        text: the URDF.
+        places: file and line that each of its elements comes from, in the order of the document.
+    """
+
+    text: str
+    places: tuple[Place, ...]
 
 
 def is_xacro(path: Path) -> bool:
@@ -29,17 +52,30 @@ def is_xacro(path: Path) -> bool:
     return path.suffix == ".xacro"
 
 
+def text_is_xacro(text: str) -> bool:
+    """Whether a text is to be expanded first, by its content: it declares xacro's namespace, and uses it."""
+    if "xmlns:xacro" not in text:  # most files, and at once
+        return False
+    plain = _COMMENT.sub("", text)
+    return bool(_NAMESPACE.search(plain) and _MACRO.search(plain))
+
+
 def expand(path: Path, arguments: Mapping[str, str], packages: Packages | None = None) -> str:
-    """The URDF that a xacro file stands for.
+    """The URDF that a xacro file stands for; see `expansion`."""
+    return expansion(path, arguments, packages).text
+
+
+def expansion(path: Path, arguments: Mapping[str, str], packages: Packages | None = None) -> Expansion:
+    """The URDF that a xacro file stands for, and where its elements come from.
 
     Args:
         path: the file.
-        arguments: values of its ``<xacro:arg>``s; the others keep their defaults.
+        arguments: values of its ``<xacro:arg>``s, and of others that it uses; those not given keep their defaults.
         packages: what ``$(find …)`` finds and which folders may be read; by default those of the environment.
 
     Raises:
-        XacroError: if an argument is not declared, an expression goes beyond arithmetic, a file outside the roots is
-            asked for, or the expansion fails, takes more than `SECONDS` or more than `MEMORY`.
+        XacroError: if arguments are missing or unknown, an expression goes beyond arithmetic, a file outside the roots
+            is asked for, or the expansion fails, takes more than `SECONDS` of processor time or more than `MEMORY`.
     """
     packages = packages or Packages(path)
     request = {
@@ -51,9 +87,6 @@ def expand(path: Path, arguments: Mapping[str, str], packages: Packages | None =
         "memory": MEMORY,
     }
     answer = _ask(request)
-    if answer is None:
-        what = f"its expansion takes more than {SECONDS} s or {MEMORY // 2**20} MB"
-        raise XacroError("xacro-limit", what, file=path, remedy="look for endless macros and huge numbers")
     for message in answer["warnings"]:
         warnings.warn(PinscrewWarning("xacro", message, file=path), stacklevel=2)
     if "error" in answer:
@@ -61,15 +94,23 @@ def expand(path: Path, arguments: Mapping[str, str], packages: Packages | None =
             answer["code"],
             answer["error"],
             file=answer["file"],
-            line=answer.get("line"),
-            remedy=answer.get("remedy", ""),
+            line=answer["line"],
+            remedy=answer["remedy"],
         )
-    text: str = answer["text"]
-    return text
+    files = answer["files"]
+    return Expansion(answer["text"], tuple((files[file], line) for file, line in answer["places"]))
 
 
-def _ask(request: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The worker's answer, or None where a limit ended it."""
+def _ask(request: Mapping[str, Any]) -> dict[str, Any]:
+    """The worker's answer.
+
+    Raises:
+        XacroError: if a limit ended it, or it failed.
+    """
+
+    def ended(what: str, remedy: str = "look for endless macros and huge numbers") -> XacroError:
+        return XacroError("xacro-limit", f"its expansion takes {what}", file=request["file"], remedy=remedy)
+
     try:
         child = subprocess.run(  # noqa: S603 (our own worker, under our own interpreter)
             [sys.executable, str(_WORKER)],
@@ -77,12 +118,15 @@ def _ask(request: Mapping[str, Any]) -> dict[str, Any] | None:
             capture_output=True,
             check=False,
             text=True,
-            timeout=SECONDS,
+            timeout=SECONDS * PATIENCE,
         )
     except subprocess.TimeoutExpired:
-        return None
+        what = f"more than {SECONDS * PATIENCE} s, most of which it waited"
+        raise ended(what, "try again on a machine that is less busy") from None
+    if child.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        raise ended(f"more than {SECONDS} s of processor time")
     if child.returncode < 0 or "MemoryError" in child.stderr:
-        return None
+        raise ended(f"more than {MEMORY // 2**20} MB")
     if child.returncode > 0:
         what = f"its expansion failed: {one_line(brief(child.stderr))}"
         raise XacroError("xacro", what, file=request["file"])

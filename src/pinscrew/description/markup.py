@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final, NoReturn
+from typing import Final, NoReturn, TypeAlias
 from xml.parsers import expat
 
 from pinscrew.ground.errors import DescriptionError
 
-__all__ = ["MAX_BYTES", "Element", "decode", "parse", "read"]
+__all__ = ["MAX_BYTES", "Element", "Place", "decode", "parse", "read"]
+
+Place: TypeAlias = tuple[str, int]
+"""A file, as it was named, and a line in it."""
 
 MAX_BYTES: Final = 20 * 2**20
 """Largest file that is read."""
@@ -27,19 +30,21 @@ MAX_ATTRIBUTES: Final = 1_000
 MAX_VALUE: Final = 100_000
 """Most characters of an attribute's value: lxml (in yourdfpy) does not read ten million."""
 
+_MISPLACED: Final = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]
 _BOM: Final = b"\xef\xbb\xbf"
 _DECLARED: Final = re.compile(rb"""<\?xml[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
 
 
 @dataclass(slots=True)
 class Element:
-    """An XML element: tag, attributes, child elements, the text before these, and the line it starts on."""
+    """An XML element: tag, attributes, child elements, the text before these, and the line of ``file`` it starts on."""
 
     tag: str
     attributes: dict[str, str]
     line: int
     children: list[Element] = field(default_factory=list)
     text: str = ""
+    file: str = ""
 
     def all(self, tag: str) -> Iterator[Element]:
         """The direct children with this tag."""
@@ -89,8 +94,13 @@ def decode(data: bytes, file: str | Path) -> str:
     return text
 
 
-def parse(text: str, file: str | Path) -> Element:
+def parse(text: str, file: str | Path, places: Sequence[Place] = ()) -> Element:
     """The root element of an XML text.
+
+    Args:
+        text: the text.
+        file: what to call it in messages.
+        places: where its elements come from, in the order of the document, if not from this file.
 
     Raises:
         DescriptionError: if the text is not well-formed, or has a DOCTYPE.
@@ -100,10 +110,12 @@ def parse(text: str, file: str | Path) -> Element:
     roots: list[Element] = []
     pieces: list[str] = []  # of text: adding each to what is there would take time that grows with the square
     count = itertools.count(1)
+    name = str(file)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
+        number = next(count)
         for size, most, of_what in (
-            (next(count), MAX_ELEMENTS, "elements"),
+            (number, MAX_ELEMENTS, "elements"),
             (len(attributes), MAX_ATTRIBUTES, "attributes of an element"),
             (max(map(len, attributes.values()), default=0), MAX_VALUE, "characters in an attribute"),
         ):
@@ -111,7 +123,8 @@ def parse(text: str, file: str | Path) -> Element:
                 what = f"more than {most} {of_what}"
                 raise DescriptionError("too-large", what, file=file, line=parser.CurrentLineNumber)
         keep_text()
-        element = Element(tag, attributes, parser.CurrentLineNumber)
+        place = places[number - 1] if places else (name, parser.CurrentLineNumber)
+        element = Element(tag, attributes, place[1], file=place[0])
         (open_elements[-1].children if open_elements else roots).append(element)
         open_elements.append(element)
 
@@ -142,6 +155,8 @@ def parse(text: str, file: str | Path) -> Element:
         # The text is encoded anew, so a declared "ascii" must not make expat refuse what decode() accepted.
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
-        what = f"not well-formed XML ({expat.ErrorString(error.code)})"
-        raise DescriptionError("not-xml", what, file=file, line=error.lineno) from None
+        what, remedy = f"not well-formed XML ({expat.ErrorString(error.code)})", ""
+        if error.code == _MISPLACED:
+            remedy = f"delete what stands before <?xml on line {error.lineno}"
+        raise DescriptionError("not-xml", what, file=file, line=error.lineno, remedy=remedy) from None
     return roots[0]

@@ -69,7 +69,7 @@ class _Check:
             raise self.error("root-element", root, f"<{root.tag}> is not a robot description", remedy, label="")
         for element in root.children:
             if element.tag.startswith("xacro:"):
-                remedy = "name the file .xacro, so that it is expanded first"
+                remedy = 'declare xmlns:xacro="http://www.ros.org/wiki/xacro" in <robot>, so that it is expanded first'
                 raise self.error("unexpanded-xacro", element, f"<{element.tag}> is not URDF", remedy, label="")
         links = self._named(root, "link")
         joints = self._named(root, "joint")
@@ -97,10 +97,11 @@ class _Check:
         kind: type[DescriptionError] = DescriptionError,
     ) -> DescriptionError:
         label = _label(element) if label is None else label
-        return kind(code, brief(what), file=self.file, line=element.line, element=label, remedy=remedy)
+        return kind(code, brief(what), file=element.file or self.file, line=element.line, element=label, remedy=remedy)
 
     def warn(self, code: str, element: Element, what: str) -> None:
-        remark = PinscrewWarning(code, f"{_label(element)}: {brief(what)}", file=self.file, line=element.line)
+        file = element.file or self.file
+        remark = PinscrewWarning(code, f"{_label(element)}: {brief(what)}", file=file, line=element.line)
         warnings.warn(remark, stacklevel=2)
 
     def _named(self, root: Element, tag: str) -> dict[str, Element]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
@@ -37,18 +37,21 @@ _WITHOUT: Final[Mapping[str, tuple[str, ...]]] = {
 """The types of joint that take no notice of an element, which then was not checked."""
 
 
-def parse(text: str, file: str | Path, arguments: Mapping[str, str] | None = None) -> Description:
+def parse(
+    text: str, file: str | Path, arguments: Mapping[str, str] | None = None, places: Sequence[markup.Place] = ()
+) -> Description:
     """Read the URDF in ``text``.
 
     Args:
         text: the URDF; a xacro file must have been expanded.
         file: what to call it in messages.
         arguments: the xacro arguments it was expanded with, for the record.
+        places: where its elements come from, where it was expanded; see `markup.parse`.
 
     Raises:
         DescriptionError: if it does not describe one tree of links; see `structure.check`.
     """
-    checked = structure.check(markup.parse(text, file), file)
+    checked = structure.check(markup.parse(text, file, places), file)
     parsed = {joint.name: joint for joint in _parse_kinematics(checked).joints}
     joints = tuple(_joint(parsed[e.attributes["name"]], e.line) for e in checked.joints)
     return Description(

@@ -44,7 +44,8 @@ ERRORS: Final[dict[str, str]] = {
     "cycle": "Joints form a cycle that no root link leads to.",
     # xacro, packages and meshes
     "xacro": "xacro can't expand the file; the message carries its words.",
-    "xacro-argument": "An argument was given that the file does not declare; a plain URDF declares none.",
+    "xacro-argument": "Arguments are missing, have values for which there are no files, or are unknown to the file.",
+    "xacro-macros": "A xacro file only defines macros, and no robot.",
     "xacro-forbidden": "An expression goes beyond arithmetic, comparison, conditionals and the known functions.",
     "xacro-limit": "An expansion takes too long, too much memory, or includes itself.",
     "unknown-package": "A ROS package is in none of the places where packages are looked for.",
@@ -169,4 +170,5 @@ WARNINGS: Final[dict[str, str]] = {
     "no-mesh": "Meshes are not where the file says; their links are drawn as frames.",
     "mimic-fixed": "A fixed joint has a `<mimic>`, which was ignored.",
     "xacro": "xacro has something to say about the file.",
+    "xacro-content": "A file that is not called `.xacro` has xacro in it, and was expanded.",
 }

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 
 from pinscrew.description import catalogue, expand, markup, urdf
 from pinscrew.description.packages import Packages
-from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.errors import DescriptionError, PinscrewWarning
 from pinscrew.robot.robot import Robot
 
 __all__ = ["load"]
@@ -43,11 +44,17 @@ def load(
     entry = catalogue.find(source)
     given = {name: str(value) for name, value in {**(arguments or {}), **more}.items()}
     text = markup.read(entry.file)
-    if expand.is_xacro(entry.file):
+    places: tuple[markup.Place, ...] = ()
+    by_content = not expand.is_xacro(entry.file) and expand.text_is_xacro(text)
+    if by_content:
+        remark = "has xacro in it, and was expanded first"
+        warnings.warn(PinscrewWarning("xacro-content", remark, file=entry.file), stacklevel=2)
+    if by_content or expand.is_xacro(entry.file):
         roots = {name: Path(root) for name, root in (packages or {}).items()}
-        text = expand.expand(entry.file, given, Packages(entry.file, roots, allow_outside))
+        expansion = expand.expansion(entry.file, given, Packages(entry.file, roots, allow_outside))
+        text, places = expansion.text, expansion.places
     elif given:
         what = f"a plain URDF has no arguments, but {', '.join(given)} came"
         raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")
-    description = urdf.parse(text, entry.file, given)
+    description = urdf.parse(text, entry.file, given, places)
     return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)
