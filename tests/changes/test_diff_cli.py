@@ -169,11 +169,30 @@ def test_messages_name_the_revision(repository: Path) -> None:
     (repository / "cell" / "parts" / "parts.xacro").write_text(PARTS.replace("height", "depth"))
     git(repository, "commit", "-q", "-a", "-m", "broken")
     assert refused("diff", "HEAD:arm.urdf", "HEAD~1:arm.urdf").startswith("HEAD:arm.urdf:1: joint 'j': ")
-    assert refused("diff", "HEAD:cell/arm.urdf.xacro", "HEAD~1:arm.urdf").startswith("HEAD:cell/arm.urdf.xacro: ")
+    assert refused("diff", "HEAD:cell/arm.urdf.xacro", "HEAD~1:arm.urdf").startswith("HEAD:cell/arm.urdf.xacro:6: ")
     (repository / "arm.urdf").write_text(ARM.replace("0 1 0", "0 2 0"))
     git(repository, "commit", "-q", "-a", "-m", "long axis")
     done = process("diff", "HEAD:arm.urdf", "HEAD~2:arm.urdf")
     assert "pinscrew: warning: HEAD:arm.urdf:1: joint 'j': the axis is 2 long" in done.stderr
+
+
+@needs_git
+def test_places_in_what_a_xacro_includes(repository: Path) -> None:
+    """A changed joint of an included file is told at its line there, from a folder and from a revision."""
+    namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    joint = ARM[ARM.index("<joint") : ARM.index("</joint>") + len("</joint>")]
+    rest = ARM.replace(joint, '<xacro:include filename="parts/joint.xacro"/>')
+    (repository / "cell" / "r.xacro").write_text(rest.replace("<robot", f"<robot {namespace}"))
+    for axis in ("0 1 0", "1 0 0"):
+        text = f"<r {namespace}>\n\n{joint.replace('0 1 0', axis)}</r>"
+        (repository / "cell" / "parts" / "joint.xacro").write_text(text)
+        git(repository, "add", ".")
+        git(repository, "commit", "-q", "-m", axis)
+    for b, file in (("HEAD:cell/r.xacro", "parts/joint.xacro"), ("cell/r.xacro", "cell/parts/joint.xacro")):
+        done = run("diff", "HEAD~1:cell/r.xacro", b, "--json")
+        (change,) = json.loads(done.out)["changes"]
+        assert (change["file"], change["line"]) == (file, 3)
+        assert f"({file}:3)" in run("diff", "HEAD~1:cell/r.xacro", b).out
 
 
 @needs_git

@@ -251,12 +251,11 @@ def test_errors_as_findings(folder: Path) -> None:
     assert len(from_error(DescriptionError("not-xml", "x" * 5000, file="c")).message) < 1300
 
 
-def test_lines_of_an_expansion_are_none_of_the_file() -> None:
-    error = DescriptionError("zero-axis", "is zero", file="a.urdf.xacro", line=3)
-    assert from_error(error) == Finding("zero-axis", "error", "is zero (line 3 of its expansion)", "a.urdf.xacro")
-    warning = PinscrewWarning("axis-normalised", "is long", file="a.urdf.xacro", line=3)
-    assert from_warning(warning).message == "is long (line 3 of its expansion)"
+def test_lines_are_those_of_the_file_that_has_them() -> None:
+    error = DescriptionError("zero-axis", "is zero", file="part.xacro", line=3)
+    expected = Finding("zero-axis", "error", "is zero", "part.xacro", 3, "a.urdf.xacro")
+    assert from_error(error, "a.urdf.xacro") == expected
+    warning = PinscrewWarning("axis-normalised", "is long", file="part.xacro", line=3)
+    assert from_warning(warning, "arm") == Finding("axis-normalised", "warning", "is long", "part.xacro", 3, "arm")
     own = XacroError("not-xml", "is not well-formed", file="a.urdf.xacro", line=3)
-    assert from_error(own).line == 3, "xacro's own errors have lines of the file"
-    plain = PinscrewWarning("axis-normalised", "is long", file="a.urdf", line=3)
-    assert from_warning(plain, "arm") == Finding("axis-normalised", "warning", "is long", "a.urdf", 3, "arm")
+    assert from_error(own).line == 3

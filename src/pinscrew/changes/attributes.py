@@ -61,7 +61,7 @@ def attributes(
 
 def _change(word: str, step: Step, words: str, length: float = 0.0, angle: float = 0.0) -> Change:
     now = step.named
-    return Change(word, now.name, now.child, f"joint {now.name!r}: {words}", length, angle, now.line)
+    return Change(word, now.name, now.child, f"joint {now.name!r}: {words}", length, angle, now.line, now.file)
 
 
 def _rehung(step: Step, joint: Joint, now: Joint, placed: list[Change]) -> Change:
@@ -160,5 +160,5 @@ def renames(step: Step, a: Description, b: Description) -> tuple[list[Change], l
             notes.append(_change("joint-renamed", step, f"it was called {joint.name!r}"))
     if joint.child != now.child and joint.child not in b.links and now.child not in a.links:
         words = f"link {now.child!r} was called {joint.child!r}"
-        notes.append(Change("link-renamed", now.name, now.child, words, line=now.line))
+        notes.append(Change("link-renamed", now.name, now.child, words, line=now.line, file=now.file))
     return changes, notes

@@ -11,7 +11,7 @@ from pinscrew.ground.errors import PinscrewError
 from pinscrew.ground.words import one_line
 from pinscrew.reporting.document import Document, Line, Section, cases_of
 from pinscrew.reporting.findings import Finding, Level
-from pinscrew.reporting.troubles import expanded, from_error
+from pinscrew.reporting.troubles import from_error
 
 __all__ = ["SCHEMA", "TASK", "as_data", "document", "failure", "findings", "lines", "summary"]
 
@@ -65,8 +65,7 @@ def findings(changes: ChangesData, robot: str, *, changed: str, kept: str) -> tu
     """An error for each change of the motion and a note for each edit that does not change it, by these rules."""
 
     def finding(change: Change, rule: str, level: Level) -> Finding:
-        line, at = expanded(changes.file, change.line)
-        return Finding(rule, level, f"{one_line(change.words)}{at}", changes.file, line, robot)
+        return Finding(rule, level, one_line(change.words), change.file or changes.file, change.line, robot)
 
     return (
         *(finding(change, changed, "error") for change in changes.changes),
@@ -75,8 +74,8 @@ def findings(changes: ChangesData, robot: str, *, changed: str, kept: str) -> tu
 
 
 def as_data(change: Change) -> dict[str, Any]:
-    """A change as JSON has it."""
-    return asdict(change)
+    """A change as JSON has it; its file only where that is not b's."""
+    return {key: value for key, value in asdict(change).items() if key != "file" or value}
 
 
 def _data(changes: ChangesData) -> dict[str, Any]:
@@ -99,8 +98,9 @@ def _data(changes: ChangesData) -> dict[str, Any]:
 
 
 def _placed(change: Change) -> str:
-    where = "" if change.line is None else f" (line {change.line})"
-    return f"{change.words}{where}"
+    if change.line is None:
+        return change.words
+    return f"{change.words} ({f'{change.file}:' if change.file else 'line '}{change.line})"
 
 
 def _apart(changes: ChangesData) -> list[str]:

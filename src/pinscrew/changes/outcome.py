@@ -19,7 +19,8 @@ class Change:
         words: one sentence, in mm and degrees.
         length: how far something moved (m); 0 where nothing did.
         angle: how far something turned (rad); 0 where nothing did.
-        line: line of the joint in b's file (after expansion, for xacro), or None where b does not have it.
+        line: line of the joint in b's file, or None where b does not have it.
+        file: the file that has that line, where it is another: one that b's xacro file includes.
     """
 
     kind: str
@@ -29,6 +30,7 @@ class Change:
     length: float = 0.0
     angle: float = 0.0
     line: int | None = None
+    file: str = ""
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,8 @@ class _Told:
     def _change(self, word: str, words: str, length: float = 0.0, angle: float = 0.0) -> Change:
         step = self._step
         link = step.link_b if step.b else step.link_a
-        return Change(word, step.named.name, link, words, length, angle, step.b.line if step.b else None)
+        line, file = (step.b.line, step.b.file) if step.b else (None, "")
+        return Change(word, step.named.name, link, words, length, angle, line, file)
 
     def _frame_name(self) -> str:
         """The link in whose frame displacements are told: the parent, by its name in b."""

@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from os.path import relpath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -98,7 +99,12 @@ def _load(named: arguments.Named) -> Robot:
     if not revision.is_revision(named.source):
         return _read(named.source, named)
     with revision.taken_out(named.source) as path:
-        return _read(str(path), named)
+        robot = _read(str(path), named)
+    # The files that it includes were in a temporary folder, which is of no use to anyone.
+    joints = [
+        replace(joint, file=joint.file and relpath(joint.file, path.parent)) for joint in robot.description.joints
+    ]
+    return replace(robot, description=replace(robot.description, joints=tuple(joints)))
 
 
 def _read(source: str, named: arguments.Named) -> Robot:

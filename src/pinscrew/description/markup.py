@@ -100,7 +100,7 @@ def parse(text: str, file: str | Path, places: Sequence[Place] = ()) -> Element:
     Args:
         text: the text.
         file: what to call it in messages.
-        places: where its elements come from, in the order of the document, if not from this file.
+        places: where its elements come from, in the order of the document, if the text is the expansion of the file.
 
     Raises:
         DescriptionError: if the text is not well-formed, or has a DOCTYPE.
@@ -155,8 +155,10 @@ def parse(text: str, file: str | Path, places: Sequence[Place] = ()) -> Element:
         # The text is encoded anew, so a declared "ascii" must not make expat refuse what decode() accepted.
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
-        what, remedy = f"not well-formed XML ({expat.ErrorString(error.code)})", ""
-        if error.code == _MISPLACED:
-            remedy = f"delete what stands before <?xml on line {error.lineno}"
+        what = f"not well-formed XML ({expat.ErrorString(error.code)})"
+        if places:
+            what += f" on line {error.lineno} of its expansion"
+            raise DescriptionError("not-xml", what, file=file) from None
+        remedy = f"delete what stands before <?xml on line {error.lineno}" if error.code == _MISPLACED else ""
         raise DescriptionError("not-xml", what, file=file, line=error.lineno, remedy=remedy) from None
     return roots[0]

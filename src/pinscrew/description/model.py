@@ -58,7 +58,8 @@ class Joint(Rebuilt):
         T_parent_joint: pose of the joint's frame in the parent link's, shape (4, 4). The child link's frame
             coincides with it at value zero.
         axis: unit vector in the joint's frame, shape (3,).
-        line: line of the element in the file.
+        line: line of the element in the robot's file.
+        file: the file that has that line, where it is another: one that a xacro file includes.
     """
 
     name: str
@@ -70,6 +71,7 @@ class Joint(Rebuilt):
     limits: Limits = Limits()
     mimic: Mimic | None = None
     line: int | None = None
+    file: str = ""
 
     def __post_init__(self) -> None:
         self.T_parent_joint.setflags(write=False)

@@ -53,7 +53,7 @@ def parse(
     """
     checked = structure.check(markup.parse(text, file, places), file)
     parsed = {joint.name: joint for joint in _parse_kinematics(checked).joints}
-    joints = tuple(_joint(parsed[e.attributes["name"]], e.line) for e in checked.joints)
+    joints = tuple(_joint(parsed[e.attributes["name"]], e, str(file)) for e in checked.joints)
     return Description(
         name=checked.name,
         file=str(file),
@@ -89,7 +89,7 @@ def _copy(element: markup.Element, parent: ET.Element) -> ET.Element:
     return ET.SubElement(parent, element.tag, {k: v for k, v in element.attributes.items() if k in known})
 
 
-def _joint(joint: yourdfpy.Joint, line: int) -> Joint:
+def _joint(joint: yourdfpy.Joint, element: markup.Element, file: str) -> Joint:
     origin = np.eye(4) if joint.origin is None else joint.origin
     limit = joint.limit
     limits = Limits()
@@ -117,5 +117,6 @@ def _joint(joint: yourdfpy.Joint, line: int) -> Joint:
         axis=axis,
         limits=limits,
         mimic=mimic,
-        line=line,
+        line=element.line,
+        file="" if element.file == file else element.file,
     )

@@ -68,8 +68,8 @@ class DescriptionError(PinscrewError):
     """A robot's file, or one that goes with it, can't be used as it is.
 
     Attributes:
-        file: the file, or a name for text that came from elsewhere.
-        line: line of the element in the file (after expansion, for xacro), or ``None``.
+        file: the file, or a name for text that came from elsewhere; for xacro the one that has the element.
+        line: line of the element in the file, or ``None``.
         element: the element, such as ``joint 'elbow'``, or ``""``.
     """
 
@@ -163,7 +163,7 @@ class PinscrewWarning(UserWarning):
         code: stable word for the kind of remark, such as ``"axis-normalised"``.
         what: the remark.
         file: the file that it is about, or ``""``.
-        line: line of the element in the file (after expansion, for xacro), or ``None``.
+        line: line of the element in the file, or ``None``.
     """
 
     def __init__(self, code: str, what: str, *, file: str | Path = "", line: int | None = None) -> None:

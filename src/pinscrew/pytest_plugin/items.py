@@ -49,9 +49,8 @@ class RobotItem(pytest.Item):
         """Fail because the file can't be used."""
         folder = self.config.invocation_params.dir
         words = str(trouble).replace(str(self.path), os.path.relpath(self.path, folder))
-        # The lines of a xacro file's errors are those of its expansion.
-        plain = isinstance(trouble, DescriptionError) and trouble.file == str(self.path) and self.path.suffix == ".urdf"
-        self.fail(words, getattr(trouble, "line", None) if plain else None)
+        own = isinstance(trouble, DescriptionError) and trouble.file == str(self.path)
+        self.fail(words, getattr(trouble, "line", None) if own else None)
 
 
 class _SubjectItem(RobotItem):

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pinscrew.description.expand import is_xacro
 from pinscrew.description.packages import is_file
-from pinscrew.ground.errors import LONGEST, DescriptionError, PinscrewError, PinscrewWarning, XacroError
+from pinscrew.ground.errors import LONGEST, DescriptionError, PinscrewError, PinscrewWarning
 from pinscrew.ground.words import brief, one_line
 from pinscrew.reporting.findings import Finding
 
-__all__ = ["expanded", "from_error", "from_warning"]
+__all__ = ["from_error", "from_warning"]
 
 
 def from_error(error: PinscrewError, robot: str = "") -> Finding:
@@ -24,25 +23,14 @@ def from_error(error: PinscrewError, robot: str = "") -> Finding:
     if isinstance(error, DescriptionError):
         file, line = error.file, error.line
     said = [error.what, error.remedy]
-    if line is not None and not isinstance(error, XacroError):  # xacro's own errors have the line of the macro
-        line, at = expanded(file, line)
-        said[0] += at
-    elif not file and error.where:
+    if not file and error.where:
         said[0] = f"{error.where}: {error.what}"
     return Finding(error.code, "error", "; ".join(_short(text) for text in said if text), file, line, robot)
 
 
 def from_warning(warning: PinscrewWarning, robot: str = "") -> Finding:
     """What a warning says, at its place."""
-    line, at = expanded(warning.file, warning.line)
-    return Finding(warning.code, "warning", _short(warning.what) + at, warning.file, line, robot)
-
-
-def expanded(file: str, line: int | None) -> tuple[int | None, str]:
-    """The line for a finding, and what to add to its message: lines of a xacro's expansion are none of its file."""
-    if line is None or not is_xacro(Path(file)):
-        return line, ""
-    return None, f" (line {line} of its expansion)"
+    return Finding(warning.code, "warning", _short(warning.what), warning.file, warning.line, robot)
 
 
 def _short(text: str) -> str:

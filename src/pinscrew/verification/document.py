@@ -11,7 +11,7 @@ from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 from pinscrew.ground.words import one_line
 from pinscrew.reporting.document import Case, Document, Line, Problem, ResultTable, Section, Strong
 from pinscrew.reporting.findings import Finding
-from pinscrew.reporting.troubles import expanded, from_error, from_warning
+from pinscrew.reporting.troubles import from_error, from_warning
 from pinscrew.verification.outcome import Check, ReportData
 from pinscrew.verification.wording import details, failures, largest_at, place, summary
 
@@ -110,10 +110,10 @@ def _disagreements(report: ReportData) -> Iterator[Finding]:
     if report.ok:
         return
     worst = failures(report)[0]
-    blame = zip(report.diagnosis, report.lines or [None] * len(report.diagnosis), strict=True)
-    for words, joint_line in list(blame) or [("the engines disagree", None)]:
-        line, at = expanded(report.file, joint_line)
-        yield Finding("disagreement", "error", f"{one_line(words)}{at} ({worst})", report.file, line, report.robot)
+    count = len(report.diagnosis)
+    blame = zip(report.diagnosis, report.files or [report.file] * count, report.lines or [None] * count, strict=True)
+    for words, file, line in list(blame) or [("the engines disagree", report.file, None)]:
+        yield Finding("disagreement", "error", f"{one_line(words)} ({worst})", file, line, report.robot)
 
 
 def _data(attempts: Sequence[Attempt]) -> dict[str, Any]:

@@ -68,7 +68,8 @@ class ReportData:
         checks: one per comparison.
         diagnosis: where the robots of the engines differ first, in words; empty if they agree.
         blamed: the joint that each line of the diagnosis is about, or ``""``.
-        lines: the line of that joint in the file (after expansion, for xacro), or None.
+        lines: the line of that joint, or None.
+        files: the file that has that line: `file`, or one that a xacro file includes.
     """
 
     robot: str
@@ -85,6 +86,7 @@ class ReportData:
     diagnosis: tuple[str, ...] = field(default=())
     blamed: tuple[str, ...] = field(default=())
     lines: tuple[int | None, ...] = field(default=())
+    files: tuple[str, ...] = field(default=())
 
     @property
     def ok(self) -> bool:

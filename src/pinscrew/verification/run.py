@@ -76,7 +76,8 @@ def verify(
             checks += _numbers(robot, pair, known, where, tolerance, many=many)
         failed = [check for check in checks if not check.ok]
         blame = diagnosis.diagnose(pair, failed, tolerance) if failed else ()
-    lines = {joint.name: joint.line for joint in robot.description.joints}
+    joints = {joint.name: joint for joint in robot.description.joints}
+    blamed = [joints.get(difference.joint) for difference in blame]
     return Report(
         robot=robot.name,
         file=robot.description.file,
@@ -91,7 +92,8 @@ def verify(
         checks=tuple(checks),
         diagnosis=tuple(difference.words for difference in blame),
         blamed=tuple(difference.joint for difference in blame),
-        lines=tuple(lines.get(difference.joint) for difference in blame),
+        lines=tuple(None if joint is None else joint.line for joint in blamed),
+        files=tuple((joint and joint.file) or robot.description.file for joint in blamed),
     )
 
 
