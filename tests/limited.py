@@ -19,6 +19,7 @@ import time
 import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import IO, Any, Final
 
@@ -106,12 +107,13 @@ class Server:
 
 def _serve() -> None:
     # What a child needs is imported before it is forked.
-    import rich.table  # noqa: F401
+    import sympy  # noqa: F401
 
     import pinscrew as ps
-    import pinscrew.cli.fk
-    import pinscrew.cli.verify
+    from pinscrew.cli import _COMMANDS
 
+    for module in (*_COMMANDS.values(), "pinscrew.cli.tables", "pinscrew.derivation.run", "pinscrew.workspace"):
+        import_module(module)
     ps.verify(ps.load("one_joint"), samples=1)
     replies = os.fdopen(os.dup(1), "w")
     for line in sys.stdin:

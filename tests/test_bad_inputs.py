@@ -13,8 +13,9 @@ import subprocess
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import pytest
 
@@ -23,6 +24,7 @@ import bad_xacros
 import limited
 import pinscrew as ps
 from bad_inputs import Case
+from expansions import Expansions
 from pinscrew.description import expand
 from pinscrew.ground import errors
 from pinscrew.ground.errors import DescriptionError, PinscrewError, PinscrewWarning
@@ -30,10 +32,28 @@ from pinscrew.ground.errors import DescriptionError, PinscrewError, PinscrewWarn
 REFUSED = [*bad_inputs.REFUSED, *bad_xacros.REFUSED]
 
 
+LIMITS: Final = [case for case in REFUSED if case.seconds or callable(case.content) or case.code == "xacro-limit"]
+"""Files that would take all the time or memory that they get."""
+ONE_EACH: Final = list({case.code: case for case in reversed(REFUSED) if case not in LIMITS}.values())
+"""One file for each code."""
+
+
 @pytest.fixture(scope="module")
 def server() -> Iterator[limited.Server]:
     with limited.Server() as started:
         yield started
+
+
+@pytest.fixture(scope="module")
+def forks() -> Iterator[Expansions]:
+    with Expansions() as started:
+        yield started
+
+
+@pytest.fixture
+def expansions(forks: Expansions, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Expansions without the time that a new process takes; those in `limited` children have theirs."""
+    monkeypatch.setattr(expand, "subprocess", forks)
 
 
 def name_of(case: Case) -> str:
@@ -82,27 +102,103 @@ def test_there_are_many() -> None:
     assert len(set(names)) == len(names)
 
 
-@pytest.mark.parametrize("case", REFUSED, ids=name_of)
-def test_one_error(case: Case, server: limited.Server, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("case", [case for case in REFUSED if case not in LIMITS], ids=name_of)
+@pytest.mark.usefixtures("expansions")
+def test_one_error(case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In this process, where the error's parts can be seen."""
     file = write(case, tmp_path)
-    result = server.run("verify", file, *case.arguments, "--samples", 2, expansion=case.seconds, folder=file.parent)
-    message = limited.one_error(result, case.words)
+    monkeypatch.chdir(file.parent)
+    error = raised(file, case.arguments)
+    assert (type(error), error.code) == (getattr(errors, case.error), case.code)
+    message = str(error)
+    assert [word for word in case.words if word not in message] == []
     assert len(message) < 3000
     assert message.isprintable()
-
-    monkeypatch.chdir(file.parent)
-    if case.seconds:
-        monkeypatch.setattr(expand, "SECONDS", case.seconds)
-    error = raised(file, case.arguments)
-    assert type(error) is getattr(errors, case.error)
-    assert error.code == case.code
-    if case.seconds is None:
-        assert str(error) == message
     if isinstance(error, DescriptionError):
         assert Path(error.file).suffix in (".urdf", ".xacro", ".yaml")
         assert error.file in message
         assert case.line is None or error.line == case.line
         assert case.element is None or error.element == case.element
+
+
+def in_a_child(case: Case, server: limited.Server, folder: Path) -> None:
+    """As a command under its limits, whose report has the error's parts."""
+    file = write(case, folder)
+    words = ("verify", file, *case.arguments, "--samples", 2, "--json")
+    result = server.run(*words, expansion=case.seconds, folder=file.parent)
+    said = json.loads(result.stdout)
+    message = limited.one_error(replace(result, stdout=""), case.words)
+    assert len(message) < 3000
+    assert message.isprintable()
+    (error,) = said["errors"]
+    assert (error["code"], error["message"]) == (case.code, message)
+    assert case.line is None or f":{case.line}: " in message
+
+
+@pytest.mark.parametrize("case", LIMITS, ids=name_of)
+def test_limits(case: Case, server: limited.Server, tmp_path: Path) -> None:
+    in_a_child(case, server, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [case for case in REFUSED if case not in LIMITS], ids=name_of)
+def test_one_error_of_a_child(case: Case, server: limited.Server, tmp_path: Path) -> None:
+    in_a_child(case, server, tmp_path)
+
+
+# ------------------------------------------------------------------------------------------------ every command
+
+COMMANDS: Final[dict[str, tuple[str, ...]]] = {
+    "derive": (),
+    "diff": ("{file}",),
+    "fk": (),
+    "jacobian": ("--kind", "body"),
+    "lock": (),
+    "screws": (),
+    "show": ("--html", "page.html"),
+    "track": ("--profile", "profile.csv"),
+    "verify": ("--samples", "2"),
+    "workspace": ("--samples", "5"),
+}
+"""The commands that read a robot, with what follows the robot."""
+
+
+def any_command(command: str, case: Case, server: limited.Server, folder: Path) -> None:
+    """One line, status 2, within the limits, and nothing written, whichever command gets the file.
+
+    What Pinocchio does not take, a command that does not ask it may.
+    """
+    file = write(case, folder)
+    (file.parent / "profile.csv").write_text("t,j\n0,0\n0.1,1\n")
+    before = sorted(file.parent.rglob("*"))
+    words = [word.format(file=file) for word in COMMANDS[command]]
+    arguments = () if command == "diff" else case.arguments
+    result = server.run(command, file, *arguments, *words, expansion=case.seconds, folder=file.parent)
+    limited.within_limits(result)
+    if result.status == 0 and case.code.startswith("pinocchio"):
+        return
+    message = limited.one_error(result, case.words if arguments == case.arguments else ())
+    assert len(message) < 3000
+    assert message.isprintable()
+    assert sorted(file.parent.rglob("*")) == before
+
+
+def sample() -> list[tuple[str, Case]]:
+    """Each command with some of the files, so that all the codes are seen."""
+    commands = list(COMMANDS)
+    return [(commands[i % len(commands)], case) for i, case in enumerate(ONE_EACH)]
+
+
+@pytest.mark.parametrize(("command", "case"), sample(), ids=lambda each: each if isinstance(each, str) else each.name)
+def test_one_error_of_any_command(command: str, case: Case, server: limited.Server, tmp_path: Path) -> None:
+    any_command(command, case, server, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("case", REFUSED, ids=name_of)
+def test_one_error_of_every_command(command: str, case: Case, server: limited.Server, tmp_path: Path) -> None:
+    any_command(command, case, server, tmp_path)
 
 
 @pytest.mark.parametrize("case", bad_inputs.ACCEPTED, ids=name_of)
