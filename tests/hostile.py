@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-SCRIPT: Final = "window.trapped=1"
+SCRIPT: Final = "document.title=1337"
 """What a page must never run."""
 
 NAMES: Final[dict[str, str]] = {
