@@ -101,7 +101,7 @@ def test_verify_could_not_run() -> None:
     assert done.out.splitlines()[-1].startswith("1 of 3 robots: ")
     first, second = done.err.splitlines()
     assert first == "pinscrew: nowhere.urdf: there is no such file"
-    assert second.endswith("declares no argument 'l9'; declared are: l1, l2")
+    assert "declares no argument 'l9'" in second
 
 
 @WRONG

@@ -123,7 +123,7 @@ def of_csv(text: str) -> list[str]:
     assert [cell for cell in cells if cell.startswith(("=", "+", "@", "\t", "\r"))] == []
     assert [cell for cell in cells if cell.startswith("-") and not re.fullmatch(r"-[\d.e+-]+", cell)] == []
     columns = [cell.partition(".")[2] for cell in cells]  # such as q.joint1
-    return [re.sub("^'(?='*[=+\\-@\t\r\uff1d])", "", cell) for cell in (*cells, *columns)]
+    return [*columns, *(re.sub("^'(?='*[=+\\-@\t\r\uff1d])", "", cell) for cell in cells)]
 
 
 def of_xml(text: str) -> list[str]:
@@ -418,4 +418,4 @@ def test_disagreements(words: tuple[str, ...], reader: Reader, tmp_path: Path, m
 def written(done: Done, words: tuple[str, ...]) -> str:
     """What a command with these words wrote, to a file, to standard output or, for GitHub, to standard error."""
     out = next((Path(word) for word in words if word.split("/")[-1].startswith("OUT")), None)
-    return out.read_text() if out else done.err if "--github" in words else done.out
+    return out.read_bytes().decode() if out else done.err if "--github" in words else done.out

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
 from pinscrew.description.model import JointType, Limits, Mimic
+from pinscrew.ground.escaping import json_text
 from pinscrew.ground.typing import FloatArray
 
 __all__ = ["SCHEMA", "LockContent", "LockedJoint"]
@@ -109,7 +109,7 @@ def _joint(joint: LockedJoint) -> Iterator[str]:
 
 def _string(text: str) -> str:
     """The text as JSON has it; bytes of a file's name that are no UTF-8 as escapes."""
-    return json.dumps(text, ensure_ascii=False).encode("utf-8", "backslashreplace").decode()
+    return json_text(text)
 
 
 def _number(value: float) -> str:

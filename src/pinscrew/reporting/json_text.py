@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-
+from pinscrew.ground.escaping import json_text
 from pinscrew.reporting.document import Document
 
 __all__ = ["to_json"]
@@ -11,4 +10,4 @@ __all__ = ["to_json"]
 
 def to_json(document: Document) -> str:
     """The data, laid out for reading; characters as they are, and no NaN or infinity, which JSON does not have."""
-    return json.dumps(document.data, indent=2, ensure_ascii=False, allow_nan=False)
+    return json_text(document.data)

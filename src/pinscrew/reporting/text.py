@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from pinscrew.ground.escaping import terminal
 from pinscrew.ground.words import one_line
 from pinscrew.reporting.document import Document, ResultTable, Section
 
@@ -17,16 +18,16 @@ def to_text(document: Document) -> str:
 
 
 def _section(section: Section) -> Iterator[str]:
-    yield one_line(section.heading)
+    yield terminal(one_line(section.heading))
     if section.table is not None:
         yield from _table(section.table)
     indent = "" if section.table is not None else "  "
     for line in section.lines:
-        yield f"{indent}{'note: ' * (line.role == 'note')}{one_line(line.text)}"
+        yield terminal(f"{indent}{'note: ' * (line.role == 'note')}{one_line(line.text)}")
 
 
 def _table(table: ResultTable) -> Iterator[str]:
-    rows = [table.columns, *table.rows]
+    rows = [[terminal(cell) for cell in row] for row in (table.columns, *table.rows)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(table.columns))]
     for row in rows:
         yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
