@@ -248,7 +248,7 @@ def test_options_may_come_anywhere() -> None:
 
 
 BAD_ROBOTS = {
-    ("scara", "l9:=1"): "scara_rrp.urdf.xacro: declares no argument 'l9'; declared are: l1, l2",
+    ("scara", "l9:=1"): "scara_rrp.urdf.xacro: declares no argument 'l9'; declared are: l1:=0.4, l2:=0.3",
     ("drone", "l9:=1"): "drone.urdf: a plain URDF has no arguments, but l9 came; leave them out",
     ("l1:=1", "scara"): "the argument l1:=1 comes before any robot",
     ("scar",): "there is no robot or file 'scar'; known are: scara, scara_rrp",
