@@ -255,3 +255,35 @@ def test_without_coordinates(tmp_path: Any) -> None:
     assert said["jacobian"] == [[]] * 6
     assert ok("fk", file).out
     assert refused("fk", file, "-q", "1") == "Invalid value for -q: 1 values, but still takes 0: none"
+
+
+@pytest.mark.parametrize("command", [("fk",), ("jacobian", "--kind", "spatial")], ids=lambda words: words[0])
+@pytest.mark.parametrize("form", [(), ("--json",)], ids=["text", "json"])
+def test_engines_that_disagree(
+    command: tuple[str, ...], form: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The answer, by how much they differ, and status 1."""
+
+    class Off(ps.Pinocchio):
+        def fk(self, *args: Any, **options: Any) -> FloatArray:
+            T = np.array(super().fk(*args, **options))
+            T[0, 3] += 1e-3
+            return T
+
+        def jacobian(self, *args: Any, **options: Any) -> FloatArray:
+            J = np.array(super().jacobian(*args, **options))
+            J[0, 0] += 1e-3
+            return J
+
+    name, *words = command
+    right = run(name, "drone", *words, *form)
+    monkeypatch.setattr(ps, "Pinocchio", Off)
+    wrong = run(name, "drone", *words, *form)
+    assert (right.status, wrong.status) == (0, 1)
+    if form:
+        difference = json.loads(wrong.out)["difference"]
+        assert 1e-4 < difference < 1e-2
+        assert json.loads(wrong.out) == {**json.loads(right.out), "difference": difference}
+    else:
+        assert wrong.out == right.out
+        assert re.search(r"differ by \d\.\de-0[34]", wrong.err)
