@@ -13,7 +13,7 @@ from pathlib import Path
 from unittest import mock
 
 from pinscrew.cli import main
-from pinscrew.ground.errors import PinscrewWarning
+from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,18 @@ def refused(*words: str | Path) -> str:
     message = done.err.splitlines()[-1]
     assert message.startswith(("Error: ", "pinscrew: "))
     return message.removeprefix("Error: ").removeprefix("pinscrew: ")
+
+
+def refusal(*words: str | Path) -> PinscrewError:
+    """The error of ours that `refused` tells of: its code and its parts are what a test should ask for."""
+    message = refused(*words)
+    raised: list[PinscrewError] = []
+    with mock.patch("pinscrew.cli.say", side_effect=lambda *_, **__: raised.append(sys.exc_info()[1])):
+        run(*words)
+    (error,) = raised
+    assert isinstance(error, PinscrewError)
+    assert str(error) == message
+    return error
 
 
 def process(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:

@@ -15,7 +15,7 @@ import pytest
 
 import pinscrew as ps
 import urdfs
-from command_line import ok, refused, run
+from command_line import ok, refusal, refused, run
 from pinscrew.ground.typing import FloatArray
 
 DRONE = ps.load("drone")  # a plain URDF loads without a child process
@@ -159,12 +159,18 @@ def test_screws_without_joints(tmp_path: Any) -> None:
 
 
 def test_screws_refuse() -> None:
-    assert refused("screws", "2r", "--reference", "link1").startswith("planar_2r: the frame 'link1' moves; ")
-    assert refused("screws", "2r", "--reference", "frame9").startswith("planar_2r: there is no frame 'frame9'")
-    together = refused("screws", "2r", "--reference", "frame0", "--at", "body")
-    assert together == "body screw axes are in the tip's own frame; leave reference out"
-    assert refused("screws", "2r", "--order", "v").startswith("Invalid value for '--order'")
-    assert refused("screws", "2r", "--format", "yaml").startswith("Invalid value for '--format'")
+    moving = refusal("screws", "2r", "--reference", "link1")
+    assert (moving.code, moving.where) == ("reference", "planar_2r")
+    assert "'link1'" in moving.what
+    unknown = refusal("screws", "2r", "--reference", "frame9")
+    assert (unknown.code, unknown.where) == ("unknown-frame", "planar_2r")
+    assert "'frame9'" in unknown.what
+    together = refusal("screws", "2r", "--reference", "frame0", "--at", "body")
+    assert "reference" in together.remedy
+    for option, value in (("--order", "v"), ("--format", "yaml")):
+        message = refused("screws", "2r", option, value)
+        assert option in message
+        assert repr(value) in message
 
 
 # --------------------------------------------------------------------------------------- fk and jacobian

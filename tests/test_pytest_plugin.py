@@ -108,7 +108,7 @@ def test_nothing_without_the_option(project: pytest.Pytester) -> None:
 
         def test_modules():
             ours = {name for name in sys.modules if name.partition(".")[0] == "pinscrew"}
-            light = {"pinscrew.ground", "pinscrew.ground.displays"}
+            light = {"pinscrew.ground", "pinscrew.ground.displays", "pinscrew.ground.version"}
             assert ours == {"pinscrew", "pinscrew.pytest_plugin", *light}
             assert not {"numpy", "pinocchio", "yourdfpy", "xacro", "click"} & set(sys.modules)
         """

@@ -130,7 +130,7 @@ def _run() -> int:
     try:
         command(prog_name="pinscrew", standalone_mode=False)
     except SystemExit as end:
-        return end.code if isinstance(end.code, int) else int(end.code is not None)
+        return int(end.code or 0)
     except PinscrewError as error:
         say(f"pinscrew: {error}", err=True)
         return 2
