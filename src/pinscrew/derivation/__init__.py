@@ -1,7 +1,7 @@
 """Layer 4: closed forms of a robot's kinematics, derived from its description, proved against both engines.
 
 How it goes: `reading` and `arguments` turn a file's numbers into exact ones and symbols, `chain` composes them to
-screws and a home pose, `trig` multiplies matrices in a normal form in which equal expressions are equal, `solution`
+screws and a home pose, `trig` multiplies matrices in a normal form in which equal expressions are equal, `normal_forms`
 forms every item of the coursework, `factoring` writes entries as a person would, `proof` asks both engines, and the
 modules of reports write it all down.
 """

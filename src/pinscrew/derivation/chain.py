@@ -11,10 +11,10 @@ import numpy.typing as npt
 import sympy as sp
 
 from pinscrew.derivation.exact import PRIMES
-from pinscrew.derivation.reading import Geometry
+from pinscrew.derivation.reading import JointGeometry
 from pinscrew.derivation.trig import Algebra
 
-__all__ = ["Chain", "Elements", "Moving", "Variable", "compose"]
+__all__ = ["Elements", "Moving", "ScrewChain", "Variable", "compose"]
 
 Elements: TypeAlias = npt.NDArray[Any]
 """An array of `Element`."""
@@ -63,7 +63,7 @@ class Moving:
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class ScrewChain:
     """All that a derivation starts from.
 
     Attributes:
@@ -80,12 +80,12 @@ class Chain:
 
 
 def compose(
-    geometry: Sequence[Geometry],
+    geometry: Sequence[JointGeometry],
     on_path: Sequence[str],
     variables: Mapping[str, Variable],
     lengths: Sequence[sp.Symbol],
     order: Sequence[str],
-) -> Chain:
+) -> ScrewChain:
     """The chain of the joints ``on_path``.
 
     Args:
@@ -128,7 +128,7 @@ def compose(
     home = np.full((4, 4), algebra.constant(0), dtype=object)
     home[:3, :3], home[:3, 3], home[3, 3] = lift(R), lift(p), algebra.constant(1)
     masters = {joint.master for joint in moving}
-    return Chain(algebra, tuple(found), home, tuple(variables[name] for name in order if name in masters))
+    return ScrewChain(algebra, tuple(found), home, tuple(variables[name] for name in order if name in masters))
 
 
 def _primes(numbers: Sequence[sp.Expr]) -> list[int]:

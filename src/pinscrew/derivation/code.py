@@ -9,18 +9,18 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.forms import ClosedForms
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KindLike, jacobian_kind
 
 __all__ = ["LANGUAGES", "code"]
 
 
-def code(derivation: Derivation, language: str, kind: KindLike = "body") -> str:
+def code(derivation: ClosedForms, language: str, kind: KindLike = "body") -> str:
     """Functions ``fk`` and ``jacobian`` of a derivation as source text.
 
-    Both take the coordinates q, in the order of `Derivation.coordinates`, and the lengths, in that of
-    `Derivation.lengths`; the values in the file are its defaults. ``fk`` gives the pose (4×4), ``jacobian`` the
+    Both take the coordinates q, in the order of `ClosedForms.coordinates`, and the lengths, in that of
+    `ClosedForms.lengths`; the values in the file are its defaults. ``fk`` gives the pose (4×4), ``jacobian`` the
     Jacobian (6×n) with rows in the order of the derivation's convention.
 
     Args:
@@ -59,7 +59,7 @@ class _Source:
     count: int
 
 
-def _header(d: Derivation, kind: str) -> tuple[str, ...]:
+def _header(d: ClosedForms, kind: str) -> tuple[str, ...]:
     rows = "vx, vy, vz, wx, wy, wz" if d.convention == "mls" else "wx, wy, wz, vx, vy, vz"
     sliding = {joint.master.symbol for joint in d.chain.joints if not joint.revolute}
     turning = {joint.master.symbol for joint in d.chain.joints if joint.revolute}
@@ -77,7 +77,7 @@ def _header(d: Derivation, kind: str) -> tuple[str, ...]:
     return tuple(" ".join(line.split()).replace("*/", "* /") for line in lines)
 
 
-def _function(d: Derivation, name: str, matrix: sp.Matrix) -> _Function:
+def _function(d: ClosedForms, name: str, matrix: sp.Matrix) -> _Function:
     """The steps: values of joints that follow, sines and cosines, common subexpressions."""
     steps: list[tuple[sp.Symbol, sp.Expr]] = []
     q = {v.symbol: sp.Symbol(f"q[{i}]") for i, v in enumerate(d.coordinates)}

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pinscrew.derivation.derivation import Convention
+from pinscrew.derivation.forms import Convention
 
 __all__ = ["NOTATIONS", "Notation"]
 

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.forms import ClosedForms
 from pinscrew.ground.typing import FloatArray
 
 __all__ = ["evaluate"]
 
 
 def evaluate(
-    derivation: Derivation,
+    derivation: ClosedForms,
     matrices: Sequence[Any],
     q: FloatArray,
     qd: FloatArray,

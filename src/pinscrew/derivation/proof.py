@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import sympy as sp
 
-from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.numeric import evaluate
 from pinscrew.description import urdf
 from pinscrew.ground.counts import whole
@@ -82,7 +82,7 @@ class Proof:
         return float(np.max(errors)) if errors else 0.0
 
 
-def prove(derivation: Derivation, samples: int = 100, seed: int = 0) -> Proof:
+def prove(derivation: ClosedForms, samples: int = 100, seed: int = 0) -> Proof:
     """Compare g, g⁻¹, ġ, the Jacobians and the velocities with `PoE` and `Pinocchio`.
 
     Once with the robot's own file, at its own lengths; and once with ``samples`` robots that differ in their
@@ -120,7 +120,7 @@ def prove(derivation: Derivation, samples: int = 100, seed: int = 0) -> Proof:
 
 
 def _compare(
-    derivation: Derivation,
+    derivation: ClosedForms,
     robots: list[Robot],
     q: FloatArray,
     qd: FloatArray,
@@ -159,7 +159,7 @@ def _compare(
     return found
 
 
-def _answers(engine: type, d: Derivation, robots: list[Robot], q: FloatArray, qd: FloatArray) -> dict[str, FloatArray]:
+def _answers(engine: type, d: ClosedForms, robots: list[Robot], q: FloatArray, qd: FloatArray) -> dict[str, FloatArray]:
     """What an engine says, in the shapes of the closed forms; successive samples of one robot are asked at once."""
     edges = [i for i, robot in enumerate(robots) if i == 0 or robot is not robots[i - 1]]
     parts: list[dict[str, FloatArray]] = []
@@ -181,7 +181,7 @@ def _answers(engine: type, d: Derivation, robots: list[Robot], q: FloatArray, qd
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def variant(derivation: Derivation, lengths: Mapping[sp.Symbol, float]) -> Robot:
+def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float]) -> Robot:
     """The joints that matter as a robot with these lengths, its rotations and axes the exact ones.
 
     Joints that are only followed hang on the base.

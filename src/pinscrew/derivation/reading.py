@@ -14,7 +14,7 @@ from pinscrew.description.model import SCALAR_TYPES, Description
 from pinscrew.ground.errors import UnsupportedError
 from pinscrew.robot.robot import Robot
 
-__all__ = ["MOST_JOINTS", "Geometry", "Printed", "geometry", "printed"]
+__all__ = ["MOST_JOINTS", "JointGeometry", "Printed", "geometry", "printed"]
 
 MOST_JOINTS: Final = 8
 """Moving joints to the tip above which closed forms are of no use to anyone."""
@@ -50,7 +50,7 @@ class Printed:
 
 
 @dataclass(frozen=True, slots=True)
-class Geometry:
+class JointGeometry:
     """A joint on the way to the tip, in exact numbers and symbols.
 
     Attributes:
@@ -132,7 +132,7 @@ def geometry(
     joints: Mapping[str, Printed],
     value: Callable[[str, str, str], sp.Expr],
     snaps: exact.Snaps,
-) -> tuple[Geometry, ...]:
+) -> tuple[JointGeometry, ...]:
     """The joints in exact numbers.
 
     Args:
@@ -148,7 +148,7 @@ def _geometry(
     joints: Mapping[str, Printed],
     value: Callable[[str, str, str], sp.Expr],
     snaps: exact.Snaps,
-) -> Geometry:
+) -> JointGeometry:
     where = f"joint {joint.name!r}"
     master, multiplier, offset = joint, sp.Integer(1), sp.Integer(0)
     while master.mimic is not None:
@@ -159,7 +159,7 @@ def _geometry(
         offset = exact.angle(str(offset.n(20)), f"{where}, offset", snaps) if offset.is_number else offset
     moves = joint.type != "fixed"
     rpy = tuple(exact.angle(text, f"{where}, rpy", snaps) for text in joint.rpy)
-    return Geometry(
+    return JointGeometry(
         name=joint.name,
         type=joint.type,
         rpy=rpy,

@@ -11,7 +11,8 @@ import sympy as sp
 
 from pinscrew.derivation import arguments, exact, reading
 from pinscrew.derivation.chain import Variable, compose
-from pinscrew.derivation.derivation import Convention, Derivation
+from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.forms import Convention
 from pinscrew.ground.errors import InputError
 from pinscrew.robot.loading import load
 from pinscrew.robot.robot import Robot

@@ -153,7 +153,7 @@ class _Writer:
         for symbol, value in self.d.follows.items():
             yield Formula((self.set(symbol), self.set(value)))
         for k, variable in enumerate(self.d.coordinates):
-            at_zero = {symbol: sp.Integer(0) for symbol in self.d.solution_symbols}
+            at_zero = {symbol: sp.Integer(0) for symbol in self.d.joint_values}
             column = self.d.explicit(self.d.jacobian("spatial")[:, k]).subs(at_zero)
             v, w = column[:3, 0], column[3:, 0]
             text = f"At zero, a unit of ${self.set(variable.symbol)}$ is the twist"

@@ -19,8 +19,8 @@ from sympy.polys.domains import QQ
 from sympy.polys.rings import PolyElement, PolyRing
 
 from pinscrew.derivation.chain import Elements
-from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.factoring import operations
+from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.trig import Algebra, Element
 
 __all__ = ["Measure", "Singularities", "singularities"]
@@ -61,7 +61,7 @@ class _TooLongError(Exception):
     """A determinant has more than `MOST_TERMS` terms."""
 
 
-def singularities(derivation: Derivation) -> Singularities:
+def singularities(derivation: ClosedForms) -> Singularities:
     """The determinants of a derivation's Jacobian that fit its number of joints."""
     d = derivation
     n = len(d.screws)
@@ -75,13 +75,13 @@ def singularities(derivation: Derivation) -> Singularities:
     try:
         if n == 6:
             words = "The six columns are dependent where the determinant vanishes; it is the same in every frame."
-            found.append(trig.measure(r"\det J", trig.determinant(d.solution.at(3))))
+            found.append(trig.measure(r"\det J", trig.determinant(d.normal.at(3))))
         else:
             words = (
                 "The columns are dependent where $\\det(J^T J)$ vanishes, the square of the manipulability. It adds "
                 "metres to radians, so its size means nothing; where it is zero does."
             )
-            body = d.solution.body
+            body = d.normal.body
             found.append(trig.measure(r"\det\left( (J^{b})^{T} J^{b} \right)", trig.gram(body)))
             position = body[:3][[bool(row.any()) for row in body[:3]]]
             if len(position) == n:
@@ -98,7 +98,7 @@ def singularities(derivation: Derivation) -> Singularities:
 class _Polynomials:
     """Elements as polynomials in the sines and cosines of single joints, reduced by s² = 1 - c²."""
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: ClosedForms) -> None:
         self.d = derivation
         self.algebra: Algebra = derivation.chain.algebra
         self.angles = [angle for group in self.algebra.angles for angle in group]
@@ -200,7 +200,7 @@ class _Polynomials:
             base = factor.base if factor.is_Pow else factor
             if base.is_positive:
                 continue
-            if base.free_symbols & (self.d.atoms.explicit.keys() | set(self.d.solution_symbols)):
+            if base.free_symbols & (self.d.atoms.explicit.keys() | set(self.d.joint_values)):
                 factors.append(base)
         return Measure(name, sp.Mul(rest, *(factor**power for factor, power in outside)), tuple(factors))
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.forms import ClosedForms
 
 __all__ = ["Typesetter", "escape"]
 
@@ -29,7 +29,7 @@ def escape(text: str) -> str:
 class Typesetter:
     """Sets the expressions of one derivation."""
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: ClosedForms) -> None:
         self._d = derivation
         self._symbols: dict[sp.Symbol, str] = {}
         self._rank: dict[sp.Symbol, int] = {symbol: i for i, symbol in enumerate(derivation.lengths)}

@@ -17,7 +17,7 @@ from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 
-__all__ = ["Coordinates", "JointMotion", "Mechanism", "derive"]
+__all__ = ["Coordinates", "JointMotion", "Mechanism", "mechanism_of"]
 
 _POSITIONS: Final = {"floating": ("x", "y", "z", "qx", "qy", "qz", "qw"), "planar": ("x", "y", "theta")}
 _VELOCITIES: Final = {"floating": ("vx", "vy", "vz", "wx", "wy", "wz"), "planar": ("vx", "vy", "wz")}
@@ -103,7 +103,7 @@ class Mechanism:
     reach: float
 
 
-def derive(description: Description) -> Mechanism:
+def mechanism_of(description: Description) -> Mechanism:
     """The mechanism of a description: one pass down the tree."""
     coordinates = _coordinates(description)
     driven = drivers({joint.name: joint.mimic for joint in description.joints})

@@ -13,7 +13,7 @@ from pinscrew.ground.displays import Displayed
 from pinscrew.ground.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.robot.mechanism import Mechanism, derive
+from pinscrew.robot.mechanism import Mechanism, mechanism_of
 
 __all__ = ["FLOATING_JOINT", "UNIVERSE", "Robot"]
 
@@ -48,7 +48,7 @@ class Robot(Rebuilt, Displayed):
     mechanism: Mechanism = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "mechanism", derive(self.description))
+        object.__setattr__(self, "mechanism", mechanism_of(self.description))
         if self.default_tip is not None:
             self.frame(self.default_tip)
 

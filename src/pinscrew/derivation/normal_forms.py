@@ -14,19 +14,19 @@ from itertools import accumulate
 import numpy as np
 import numpy.typing as npt
 
-from pinscrew.derivation.chain import Chain, Elements, Moving, cross
+from pinscrew.derivation.chain import Elements, Moving, ScrewChain, cross
 from pinscrew.derivation.trig import Algebra, Element
 
-__all__ = ["Solution", "adjoint", "adjoint_inverse", "derivative", "hat", "inverse"]
+__all__ = ["NormalForms", "adjoint", "adjoint_inverse", "derivative", "hat", "inverse"]
 
 
-class Solution:
+class NormalForms:
     """The results of a chain as arrays of elements, each formed when it is first asked for.
 
     n is the number of joints that move the frame; lengths are in m, angles in rad.
     """
 
-    def __init__(self, chain: Chain) -> None:
+    def __init__(self, chain: ScrewChain) -> None:
         self.chain = chain
         self._algebra = chain.algebra
         self._joints = chain.joints
