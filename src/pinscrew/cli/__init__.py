@@ -7,11 +7,13 @@ import difflib
 import errno
 import io
 import os
+import signal
 import sys
 import traceback
 import warnings
 from collections.abc import Iterator
 from importlib import import_module
+from types import FrameType
 from typing import Any, Final
 
 import click
@@ -106,6 +108,7 @@ def main() -> None:
     output that has had enough 141. Output that can't be written, to a full disk say, is an error.
     """
     _open_streams()
+    _hear_signals()
     warnings.showwarning = _show_warning
     try:
         status = _run()
@@ -180,6 +183,18 @@ def _silence() -> None:
             continue
         with contextlib.suppress(io.UnsupportedOperation):  # a stream without a file, in tests
             os.dup2(nowhere, stream.fileno())
+
+
+def _hear_signals() -> None:
+    """Have what ends a process end this one like an error does: what is half done is taken away."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _end)
+
+
+def _end(number: int, _frame: FrameType | None) -> None:
+    sys.exit(128 + number)  # as a shell says it
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:

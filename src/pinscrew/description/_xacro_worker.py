@@ -30,6 +30,7 @@ from pinscrew.description import markup
 from pinscrew.description._xacro_arguments import Arguments, NeedsError
 from pinscrew.description._xacro_methods import TooLongError, method
 from pinscrew.description.packages import Packages, is_file
+from pinscrew.ground.children import end_with_parent
 from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.words import brief, one_line
 
@@ -265,6 +266,7 @@ def _short(text: str) -> str:
 
 def main() -> None:
     """Answer one request."""
+    end_with_parent()
     request = json.load(sys.stdin)
     answer: dict[str, Any] = {"file": request["file"]}
     said = io.StringIO()

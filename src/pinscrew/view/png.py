@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 from typing import Final
 
+from pinscrew.ground.children import program
 from pinscrew.ground.errors import ViewError
 
 __all__ = ["BROWSERS", "find_browser", "picture"]
@@ -99,15 +98,10 @@ def _is_root() -> bool:
 
 def _run(command: list[str], seconds: float) -> str:
     """Run a browser to its end and return what it said; it and its helpers are stopped in any case."""
-    with subprocess.Popen(  # noqa: S603 (the command is ours)
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True
-    ) as process:
+    with program(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
         try:
             words, _ = process.communicate(timeout=seconds)
         except subprocess.TimeoutExpired:
             what = f"did not end within {seconds:g} s"
             raise ViewError("browser-failed", what, where=command[0]) from None
-        finally:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
     return words.decode("utf-8", errors="replace")
