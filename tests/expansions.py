@@ -15,20 +15,24 @@ import subprocess
 import sys
 import time
 import traceback
+from pathlib import Path
 from typing import Any
 
 
 class Expansions:
-    """A context manager, whose `run` is used as `subprocess.run` is."""
+    """A context manager, whose `run` is used as `subprocess.run` is; the process starts with the first."""
 
     TimeoutExpired = subprocess.TimeoutExpired
 
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[str] | None = None
+
     def __enter__(self) -> Expansions:
-        command = [sys.executable, __file__]
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         return self
 
     def __exit__(self, *_: object) -> None:
+        if self._process is None:
+            return
         for stream in (self._process.stdin, self._process.stdout):
             assert stream is not None
             stream.close()
@@ -44,9 +48,13 @@ class Expansions:
     ) -> subprocess.CompletedProcess[str]:
         """What becomes of the worker with this input."""
         assert command[1].endswith("_xacro_worker.py")
+        if self._process is None:
+            server = [sys.executable, __file__]
+            self._process = subprocess.Popen(server, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self._process.stdin is not None
         assert self._process.stdout is not None
-        self._process.stdin.write(json.dumps({"input": input, "timeout": timeout}) + "\n")
+        surroundings = {"folder": str(Path.cwd()), "environment": dict(os.environ)}
+        self._process.stdin.write(json.dumps({"input": input, "timeout": timeout, **surroundings}) + "\n")
         self._process.stdin.flush()
         answer = json.loads(self._process.stdout.readline())
         if answer is None:
@@ -66,6 +74,9 @@ def _serve() -> None:
             sys.stdin, sys.stdout, sys.stderr = io.StringIO(request["input"]), io.StringIO(), io.StringIO()
             status = 0
             try:
+                os.chdir(request["folder"])
+                os.environ.clear()
+                os.environ.update(request["environment"])
                 _xacro_worker.main()
             except BaseException:
                 traceback.print_exc()

@@ -24,7 +24,6 @@ import bad_xacros
 import limited
 import pinscrew as ps
 from bad_inputs import Case
-from expansions import Expansions
 from pinscrew.description import expand
 from pinscrew.ground import errors
 from pinscrew.ground.errors import DescriptionError, PinscrewError, PinscrewWarning
@@ -42,18 +41,6 @@ ONE_EACH: Final = list({case.code: case for case in reversed(REFUSED) if case no
 def server() -> Iterator[limited.Server]:
     with limited.Server() as started:
         yield started
-
-
-@pytest.fixture(scope="module")
-def forks() -> Iterator[Expansions]:
-    with Expansions() as started:
-        yield started
-
-
-@pytest.fixture
-def expansions(forks: Expansions, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Expansions without the time that a new process takes; those in `limited` children have theirs."""
-    monkeypatch.setattr(expand, "subprocess", forks)
 
 
 def name_of(case: Case) -> str:
@@ -103,7 +90,6 @@ def test_there_are_many() -> None:
 
 
 @pytest.mark.parametrize("case", [case for case in REFUSED if case not in LIMITS], ids=name_of)
-@pytest.mark.usefixtures("expansions")
 def test_one_error(case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In this process, where the error's parts can be seen."""
     file = write(case, tmp_path)
