@@ -123,6 +123,7 @@ def test_screws_table() -> None:
         ["joint2", "[0, -0.5, 0, 0, 0, 1]", "[0, 0, 1]", "[0.5, 0, 0]", "0", "1"],
         ["joint3", "[0, 0, -1, 0, 0, 0]", "[0, 0, -1]", "[0, 0, 0]", "translation", "1"],
     ]
+    assert lines[5:7] == ["", "home pose M: tool in base at zero"]
     home = [line.split() for line in lines[-4:]]
     np.testing.assert_array_equal(np.array(home, dtype=float)[:, 3], [0.8, 0, 0, 1])
 

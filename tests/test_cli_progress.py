@@ -33,6 +33,12 @@ def test_a_person_sees_it(terminal: Terminal) -> None:
     assert "3/3" in shown
 
 
+def test_two_steps_are_some(terminal: Terminal) -> None:
+    with redirect_stderr(terminal), progress("counting", 2) as advance:
+        advance(2)
+    assert "2/2" in terminal.getvalue()
+
+
 def test_one_step_needs_none(terminal: Terminal) -> None:
     with redirect_stderr(terminal), progress("counting", 1) as advance:
         advance()
