@@ -13,6 +13,7 @@ import select
 import signal
 import subprocess
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
@@ -26,6 +27,7 @@ class Expansions:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[str] | None = None
+        self._lock = threading.Lock()  # derivations ask in threads
 
     def __enter__(self) -> Expansions:
         return self
@@ -48,18 +50,23 @@ class Expansions:
     ) -> subprocess.CompletedProcess[str]:
         """What becomes of the worker with this input."""
         assert command[1].endswith("_xacro_worker.py")
+        surroundings = {"folder": str(Path.cwd()), "environment": dict(os.environ)}
+        with self._lock:
+            answer = self._ask({"input": input, "timeout": timeout, **surroundings})
+        if answer is None:
+            raise subprocess.TimeoutExpired(command, timeout)
+        return subprocess.CompletedProcess(command, **answer)
+
+    def _ask(self, request: dict[str, Any]) -> dict[str, Any] | None:
         if self._process is None:
             server = [sys.executable, __file__]
             self._process = subprocess.Popen(server, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self._process.stdin is not None
         assert self._process.stdout is not None
-        surroundings = {"folder": str(Path.cwd()), "environment": dict(os.environ)}
-        self._process.stdin.write(json.dumps({"input": input, "timeout": timeout, **surroundings}) + "\n")
+        self._process.stdin.write(json.dumps(request) + "\n")
         self._process.stdin.flush()
-        answer = json.loads(self._process.stdout.readline())
-        if answer is None:
-            raise subprocess.TimeoutExpired(command, timeout)
-        return subprocess.CompletedProcess(command, **answer)
+        answer: dict[str, Any] | None = json.loads(self._process.stdout.readline())
+        return answer
 
 
 def _serve() -> None:
