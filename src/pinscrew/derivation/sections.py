@@ -75,10 +75,12 @@ def sections(derivation: Derivation, parts: Iterable[str] = ()) -> list[Section]
         "hybrid-jacobian": ("Hybrid Jacobian and the adjoint", writer.hybrid_jacobian),
         "singularities": ("Manipulability and singular configurations", writer.singularities),
     }
-    return [
-        Section(PARTS[key], key, makers[key][0], tuple(makers[key][1]()))
-        for key in wanted(parts, large=derivation.large)
-    ]
+    listed = []
+    for key in wanted(parts, large=derivation.large):
+        title, make = makers[key]
+        blocks = tuple(make())
+        listed.append(Section(PARTS[key], key, title, (*writer.short_forms(), *blocks)))
+    return listed
 
 
 class _Writer:
@@ -92,6 +94,21 @@ class _Writer:
         self.pose_name = self.n.pose.split("(", maxsplit=1)[0]
         self.numbers = range(1, len(self.values) + 1)
         self.small = not derivation.large
+        self.explained: set[sp.Symbol] = set()
+
+    def short_forms(self) -> Iterable[Block]:
+        """What the sines and cosines that were written since this was last asked for are short for, in order."""
+        order = self.d.atoms.order
+        new = sorted((self.set.used & order.keys()) - self.explained, key=order.__getitem__)
+        self.explained.update(new)
+        if new:
+            shown = ", ".join(f"${self.set(symbol)} = {self._meaning(symbol)}$" for symbol in new)
+            yield Paragraph(f"Sines and cosines are written in short: {shown}.")
+
+    def _meaning(self, symbol: sp.Symbol) -> str:
+        in_joints, in_coordinates = self.d.explicit(symbol), self.d.in_coordinates(symbol)
+        shown = self.set(in_joints)
+        return shown if in_joints == in_coordinates else f"{shown} = {self.set(in_coordinates)}"
 
     def twist(self, i: int) -> str:
         return self.n.twist.format(i)
@@ -169,14 +186,8 @@ class _Writer:
         matrix = r"\begin{bmatrix} R & (I - R) q \\ 0 & 1 \end{bmatrix}"
         rodrigues = rf"I + {hat} \sin\theta + {hat}^{{2}} (1 - \cos\theta)"
         yield Formula((self.n.exponential(0, r"\theta").replace("_{0}", ""), rf"{matrix} , \quad R", rodrigues))
-        yield Paragraph(self._abbreviations())
         for i, matrix in enumerate(self.d.exponentials, 1):
             yield from self.result(self.exponential(i), matrix=matrix, name=f"e{i}")
-
-    def _abbreviations(self) -> str:
-        atoms = {s: e for s, e in self.d.atoms.explicit.items() if s in self.d.pose.free_symbols}
-        shown = [f"${self.set(s)} = {self.set(e)}$" for s, e in list(atoms.items())[:4]]
-        return f"Sines and cosines are written in short: {', '.join(shown)}." if shown else "No joint turns."
 
     def pose(self) -> Iterable[Block]:
         d, n = self.d, self.n
@@ -186,7 +197,7 @@ class _Writer:
             if i > 1 and self.small:
                 so_far = " ".join(self.exponential(k) for k in range(1, i + 1))
                 yield from self.result(so_far, matrix=partial, name="P")
-        if self.small and d.screws:
+        if self.small and d.screws and d.home != sp.eye(4):
             both = f"{self.set.matrix(d.partial_products[-1])} {self.set.matrix(d.home)}"
             if not self.set.is_wide(d.partial_products[-1]):
                 yield Formula((n.pose, both))
@@ -197,9 +208,17 @@ class _Writer:
         pose = self.pose_name
         terms = [rf"\frac{{\partial {pose}}}{{\partial {v}}} {r}" for v, r in zip(self.values, rates, strict=True)]
         yield Formula((self.n.pose_rate, " + ".join(terms) or "0"))
+        yield from self._following_rates()
         for term, matrix in zip(terms, self.d.pose_rates, strict=True):
             yield from self.result(term, matrix=matrix, name="t")
         yield from self.result(self.n.pose_rate, matrix=self.d.pose_rate, name=r"\dot{g}")
+
+    def _following_rates(self) -> Iterable[Block]:
+        following = [joint for joint in self.d.chain.joints if joint.master is not joint.variable]
+        if following:
+            yield Paragraph("The rates of joints that follow others are put in terms of the coordinates':")
+        for joint in following:
+            yield Formula((self.set(joint.variable.rate), self.set(joint.multiplier * joint.master.rate)))
 
     def inverse(self) -> Iterable[Block]:
         general = r"\begin{bmatrix} R^{T} & -R^{T} p \\ 0 & 1 \end{bmatrix}"
@@ -259,10 +278,11 @@ class _Writer:
 
     def velocity_check(self) -> Iterable[Block]:
         d = self.d
-        rates = sp.Matrix([joint.variable.rate for joint in d.chain.joints])
-        inserted = f"{self.column(d.columns('body'))} {self.set.matrix(rates)}"
+        jacobian = d.jacobian("body")
+        rates = sp.Matrix([variable.rate for variable in d.coordinates])
         head: tuple[str, ...] = (self.n.body_velocity, rf"{self.n.body} \dot{{\theta}}")
-        head = head if self.set.is_wide(d.columns("body")) else (*head, inserted)
+        if not self.set.is_wide(jacobian):
+            head = (*head, f"{self.column(jacobian)} {self.set.matrix(rates)}")
         yield from self.result(*head, matrix=self.n.rows(d.body_velocity), name="V")
         yield Paragraph("It is (h), entry for entry." if d.velocities_agree else "It is NOT (h): one of them is wrong.")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Any, Final
 
 import sympy as sp
@@ -36,10 +37,12 @@ class Typesetter:
         for i, variable in enumerate(derivation.variables):
             self._symbols[variable.symbol], self._symbols[variable.rate] = variable.latex
             self._rank[variable.symbol] = 50 + i
+        self.used: set[sp.Symbol] = set()
         self._rates = {variable.rate: i for i, variable in enumerate(derivation.variables)}
 
     def symbol(self, symbol: sp.Symbol) -> str:
-        """A symbol."""
+        """A symbol, which is noted in `used`."""
+        self.used.add(symbol)
         found = self._symbols.get(symbol) or self._d.atoms.latex.get(symbol)
         if found is None:
             name = str(symbol)
@@ -55,8 +58,10 @@ class Typesetter:
 
     def _set(self, e: sp.Expr) -> tuple[str, int]:  # noqa: PLR0911 (one for each kind of expression)
         """The LaTeX of an expression, and how it binds."""
+        if e.is_Add and _content(e) != 1:
+            return self._product(e)
         if e.is_Add:
-            return self._sum(e), _PRODUCT if _negative(e) else _ADD
+            return self._sum(e), _ADD
         if e.is_Mul or (e.is_Pow and e.exp.is_Rational and e.exp < 0) or (e.is_Rational and e < 0):
             return self._product(e)
         if e.is_Number:
@@ -78,17 +83,11 @@ class Typesetter:
 
     def _sum(self, e: sp.Expr) -> str:
         terms = sorted(e.args, key=self._term_key)
-        signs = [_negative(term) for term in terms]
-        if all(signs):
-            return f"-{_bracketed(self(-e))}"
-        if signs[0]:
-            first = signs.index(False)
-            terms.insert(0, terms.pop(first))
-        text = ""
-        for i, term in enumerate(terms):
-            shown = self(-term if _negative(term) else term)
-            text += (" - " if i else "-") + shown if _negative(term) else (" + " if i else "") + shown
-        return text
+        shown = [self._set(term) for term in terms]
+        texts = [_bracketed(text) if binds == _ADD else text for text, binds in shown]
+        first = next((i for i, text in enumerate(texts) if not text.startswith("-")), 0)
+        texts.insert(0, texts.pop(first))  # a sum does not begin with a minus where it need not
+        return "".join(texts[:1] + [f" - {text[1:]}" if text.startswith("-") else f" + {text}" for text in texts[1:]])
 
     def _term_key(self, e: sp.Expr) -> tuple[Any, ...]:
         atoms = sorted(self._d.atoms.order[s] for s in e.free_symbols if s in self._d.atoms.order)
@@ -96,29 +95,30 @@ class Typesetter:
         return bool(atoms), atoms, lengths, str(e)
 
     def _product(self, e: sp.Expr) -> tuple[str, int]:
-        sign = "-" if _negative(e) else ""
-        e = -e if sign else e
-        if sign and e.is_Add:
-            return f"-{_bracketed(self(e))}", _PRODUCT
-        above, below = sp.fraction(e)
-        if below != 1 and not (e.is_Rational and _decimal(e)):
-            number = sp.Integer(1)
-            if below.is_Rational:
-                number, rest = above.as_coeff_Mul()
-                number /= below
-                if _decimal(number) or (rest.free_symbols and not rest.is_Symbol):
-                    joined = self._factors(rest)
-                    shown = _number(number) if _decimal(number) else rf"\tfrac{{{number.p}}}{{{number.q}}}"
-                    return f"{sign}{shown} {joined}", _PRODUCT
-            return rf"{sign}\frac{{{self(above)}}}{{{self(below)}}}", _UNIT if not sign else _PRODUCT
-        return sign + self._factors(e), _PRODUCT if e.is_Mul or sign else _UNIT
+        r"""A product: one sign, one number, the factors, and what divides them.
 
-    def _factors(self, e: sp.Expr) -> str:
-        factors = sorted(sp.Mul.make_args(e), key=self._factor_key)
-        shown = []
-        for factor in factors:
+        Signs and numbers are taken out of sums first, as `sympy` multiplies them in: -N_1 (-a/1000 - b/1000) is
+        0.001 N_1 (a + b). A sum that is a factor always stands in parentheses.
+        """
+        number, above, below = _split(e)
+        sign, number = ("-", -number) if number.is_negative else ("", number)
+        factors, divisor = sp.Mul(*above), sp.Mul(*below)
+        plain = factors.is_Symbol or not factors.free_symbols
+        if divisor != 1 or (number.q != 1 and not _decimal(number) and plain):
+            whole = number.p if not _decimal(number) else number
+            under = self._factors(below, number.q if not _decimal(number) else 1)
+            return rf"{sign}\frac{{{self._factors(above, whole)}}}{{{under}}}", _PRODUCT if sign else _UNIT
+        joined = self._factors(above, number, signed=bool(sign))
+        return sign + joined, _PRODUCT if sign or len(above) + (number != 1) > 1 else _UNIT
+
+    def _factors(self, factors: Sequence[sp.Expr], number: Any, *, signed: bool = False) -> str:
+        """A number, which is not written if it is 1, and factors in a textbook's order, perhaps after a minus."""
+        number = sp.sympify(number)
+        shown = [] if number == 1 and factors else [_number(number)]
+        alone = len(factors) + len(shown) == 1 and not signed
+        for factor in sorted(factors, key=self._factor_key):
             text, binds = self._set(factor)
-            shown.append(_bracketed(text) if binds == _ADD and len(factors) > 1 else text)
+            shown.append(text if alone or (binds != _ADD and not text.startswith("-")) else _bracketed(text))
         return " ".join(shown)
 
     def _factor_key(self, e: sp.Expr) -> tuple[Any, ...]:
@@ -169,6 +169,39 @@ def _bracketed(text: str) -> str:
 def _plain(latex: str) -> str:
     """About what is seen of a formula."""
     return re.sub(r"\\(left|right|,|dot|theta|mathrm|tfrac|frac|sqrt|cdot)|[{}_ ]", "", latex)
+
+
+def _content(total: sp.Expr) -> sp.Rational:
+    """The number that all terms of a sum have in common but for signs; negative where all terms are, otherwise 1."""
+    numbers = [term.as_coeff_Mul()[0] for term in total.args]
+    negative = all(map(_negative, total.args))
+    first = abs(numbers[0])
+    shared = first if first.is_Rational and all(abs(x) == first for x in numbers) else sp.Integer(1)
+    return -shared if negative else shared
+
+
+def _split(e: sp.Expr) -> tuple[sp.Rational, list[sp.Expr], list[sp.Expr]]:
+    """A product as a rational number, factors without one, and what divides them."""
+    number: sp.Rational = sp.Integer(1)
+    above: list[sp.Expr] = []
+    below: list[sp.Expr] = []
+    for factor in sp.Mul.make_args(e):
+        if factor.is_Rational:
+            number *= factor
+        elif factor.is_Mul:
+            inner, over, under = _split(factor)
+            number, above, below = number * inner, above + over, below + under
+        elif factor.is_Add and _content(factor) != 1:
+            content = _content(factor)
+            number *= content
+            above.append(sp.Add(*(term / content for term in factor.args)))
+        elif factor.is_Pow and factor.exp.is_Rational and factor.exp < 0:
+            below.append(1 / factor)
+        elif factor.is_Float and factor < 0:
+            number, above = -number, [*above, -factor]
+        else:
+            above.append(factor)
+    return number, above, below
 
 
 def _negative(e: sp.Expr) -> bool:
