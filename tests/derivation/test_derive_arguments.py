@@ -140,3 +140,14 @@ def test_mimics_of_all_kinds() -> None:
         arm = urdfs.load(build())
         tip = arm.frame_names[-1]
         assert ps.derive(arm, tip).prove(10).ok, build.__name__
+
+
+@pytest.mark.parametrize("xyz", ["1e-99999999 0 0", "0e99999999 0 0", f"1.{'3' * 5000} 0 0"])
+def test_numbers_without_measure(xyz: str, tmp_path: Path) -> None:
+    """A file's number is a double: as a fraction the first would have a hundred million digits."""
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/>'
+    text = f'<robot name="r"><link name="a"/><link name="b"/>{joint}<origin xyz="{xyz}"/></joint></robot>'
+    (tmp_path / "r.urdf").write_text(text)
+    home = ps.derive(ps.load(tmp_path / "r.urdf")).home
+    assert float(home[0, 3]) == pytest.approx(float(xyz.split()[0]), abs=1e-15)
+    assert home[0, 3].p.bit_length() < 200

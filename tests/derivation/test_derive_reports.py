@@ -16,7 +16,7 @@ import pinscrew as ps
 from chromium import BROWSER, FLAGS
 from pinscrew.derivation import reports
 from pinscrew.derivation.blocks import Formula, Report
-from pinscrew.derivation.sections import PARTS
+from pinscrew.derivation.parts import PARTS
 from pinscrew.ground.errors import InputError
 
 

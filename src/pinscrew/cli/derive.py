@@ -44,7 +44,8 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     "parts",
     multiple=True,
     metavar="PART",
-    help="Only this section, by letter (d) or key (pose); may be repeated. Part n, singularities, is shown only so.",
+    help="Only these sections, by letter (d), key (pose) or name (T, Js, Jb, Jh, Ad): i,l or repeated. "
+    "Part n, singularities, is shown only so.",
 )
 @click.option(
     "--convention",
@@ -71,10 +72,10 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 )
 @click.option(
     "--kind",
-    type=click.Choice(["spatial", "body", "hybrid"]),
+    type=click.Choice(["spatial", "body", "hybrid", "geometric"]),
     default="body",
     show_default=True,
-    help="Of the Jacobian in --code.",
+    help="Of the Jacobian in --code; geometric, as DH textbooks say, is hybrid.",
 )
 @click.option("--errata", is_flag=True, help="Show the mistakes of the printed coursework instead, and check them.")
 @click.option("--samples", default=100, show_default=True, type=click.IntRange(1), help="Of the numerical proof.")
@@ -117,8 +118,8 @@ def _report(
 ) -> tuple[str, bool]:
     """The text, and whether the proof holds."""
     from pinscrew.derivation.exact import SNAP
+    from pinscrew.derivation.parts import wanted
     from pinscrew.derivation.run import derive
-    from pinscrew.derivation.sections import wanted
 
     one = arguments.robot(words)
     wanted(parts, large=False)  # a wrong part is said before the work begins
@@ -134,7 +135,7 @@ def _report(
         from pinscrew.derivation.code import code
 
         proof = derivation.prove(samples, seed)
-        return code(derivation, language, kind), proof.ok
+        return code(derivation, language, "hybrid" if kind == "geometric" else kind), proof.ok
     return _written(derivation, derivation.prove(samples, seed), form, parts)
 
 

@@ -17,7 +17,7 @@ from typing import Final, TypeAlias
 
 import sympy as sp
 
-from pinscrew.derivation.exact import length
+from pinscrew.derivation.exact import bounded, length
 from pinscrew.derivation.reading import Printed, printed
 from pinscrew.description import catalogue, expand
 from pinscrew.ground.errors import PinscrewError
@@ -70,7 +70,7 @@ def recover(robot: Robot, tip: str, joints: Mapping[str, Printed], load: Loader)
     base: dict[str, Fraction] = {}
     for name, text in texts.items():
         try:
-            base[name] = Fraction(text)
+            base[name] = Fraction(bounded(text))
         except (ValueError, ZeroDivisionError):
             found.numeric[name] = f"its value {text!r} is no number"
     if not base:

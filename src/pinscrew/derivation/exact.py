@@ -17,7 +17,7 @@ from typing import Final
 
 import sympy as sp
 
-__all__ = ["PRIMES", "SNAP", "Snapped", "Snaps", "angle", "direction", "length", "rotation"]
+__all__ = ["PRIMES", "SNAP", "Snapped", "Snaps", "angle", "bounded", "direction", "length", "rotation"]
 
 SNAP: Final = 2e-3
 """Largest change of an angle (rad) or of an entry of an axis to an exact value, if no other is asked for."""
@@ -76,6 +76,21 @@ def _place(text: str) -> float:
     """The value of one unit in the last printed place of a decimal."""
     exponent = Decimal(text).as_tuple().exponent
     return 10.0**exponent if isinstance(exponent, int) else 0.0
+
+
+def bounded(text: str) -> str:
+    """A printed number as it is, if it has no more digits than one can mean; else the double that it is.
+
+    The number of a file is a double, so 0e99999999 is 0. As a fraction it would have a hundred million digits.
+
+    Raises:
+        ValueError: if it is no finite number.
+    """
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text!r} is not finite")
+    plain = len(Decimal(text).as_tuple().digits) <= _DIGITS and abs(Decimal(text).adjusted()) <= _DIGITS
+    return text.strip() if plain and value else repr(value)
 
 
 def length(text: str) -> sp.Expr:

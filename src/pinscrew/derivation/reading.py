@@ -119,12 +119,12 @@ def _printed(element: markup.Element, kind: str) -> Printed:
         axis=_three(attributes.get("axis", {}).get("xyz", "1 0 0")),
         mimic=None
         if mimic is None or kind == "fixed"
-        else (mimic["joint"], mimic.get("multiplier", "1"), mimic.get("offset", "0")),
+        else (mimic["joint"], exact.bounded(mimic.get("multiplier", "1")), exact.bounded(mimic.get("offset", "0"))),
     )
 
 
 def _three(text: str) -> Texts:
-    x, y, z = text.split()
+    x, y, z = map(exact.bounded, text.split())
     return x, y, z
 
 

@@ -6,54 +6,16 @@ Letters (a) to (k) are those of the coursework that is the model of all this; (l
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Final
 
 import sympy as sp
 
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
+from pinscrew.derivation.parts import PARTS, wanted
 from pinscrew.derivation.typeset import Typesetter
-from pinscrew.ground.errors import InputError
 
-__all__ = ["PARTS", "sections", "wanted"]
-
-PARTS: Final = {
-    "home": "a",
-    "twists": "b",
-    "exponentials": "c",
-    "pose": "d",
-    "rate": "e",
-    "inverse": "f",
-    "velocity-matrix": "g",
-    "velocity": "h",
-    "body-jacobian": "i",
-    "velocity-check": "j",
-    "hybrid-velocity": "k",
-    "spatial-jacobian": "l",
-    "hybrid-jacobian": "m",
-    "singularities": "n",
-}
-"""The keys of sections, and their letters."""
-
-_ON_REQUEST: Final = {"singularities"}
-_SMALL_ONLY: Final = {"rate", "inverse", "velocity-matrix", "velocity", "velocity-check", "hybrid-velocity"}
-
-
-def wanted(parts: Iterable[str], *, large: bool) -> list[str]:
-    """The keys of the sections that are asked for, by key or letter; by default those that fit the robot's size.
-
-    Raises:
-        InputError: if one does not exist.
-    """
-    letters = {letter: key for key, letter in PARTS.items()}
-    asked = [letters.get(part, part) for part in parts]
-    for part in asked:
-        if part not in PARTS:
-            known = ", ".join(f"{key} ({letter})" for key, letter in PARTS.items())
-            raise InputError("derive-part", f"there is no part {part!r}", remedy=f"the parts are: {known}")
-    default = [key for key in PARTS if key not in _ON_REQUEST and not (large and key in _SMALL_ONLY)]
-    return [key for key in PARTS if key in asked] if asked else default
+__all__ = ["sections"]
 
 
 def sections(derivation: Derivation, parts: Iterable[str] = ()) -> list[Section]:
