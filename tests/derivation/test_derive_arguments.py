@@ -149,5 +149,5 @@ def test_numbers_without_measure(xyz: str, tmp_path: Path) -> None:
     text = f'<robot name="r"><link name="a"/><link name="b"/>{joint}<origin xyz="{xyz}"/></joint></robot>'
     (tmp_path / "r.urdf").write_text(text)
     home = ps.derive(ps.load(tmp_path / "r.urdf")).home
-    assert float(home[0, 3]) == pytest.approx(float(xyz.split()[0]), abs=1e-15)
+    assert float(home[0, 3]) == pytest.approx(float(xyz.split(maxsplit=1)[0]), abs=1e-15)
     assert home[0, 3].p.bit_length() < 200

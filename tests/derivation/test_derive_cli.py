@@ -20,7 +20,7 @@ def run(*arguments: str) -> Result:
 def test_markdown_to_standard_output() -> None:
     done = run("two_joint", "--samples", "5", "--part", "d")
     assert done.exit_code == 0
-    assert done.stdout.startswith("# Closed-form kinematics of two_joint")
+    assert done.stdout.startswith(r"# Closed-form kinematics of two\_joint")
     assert "(d) Pose" in done.stdout
     assert "(e)" not in done.stdout
 

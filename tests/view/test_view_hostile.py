@@ -46,7 +46,6 @@ def test_the_name_of_a_robot(open_page: Callable[..., Any], title: str, tmp_path
     assert open_page((tmp_path / "page.html").as_uri()).title() == f"{file.stem} · pinscrew"
 
 
-@pytest.mark.xfail(reason="derivations escape their names in their own ways", strict=False)
 def test_a_derivation(open_page: Callable[..., Any], tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(arm([NAMES["script in a formula"], NAMES["tag"]]))
     ok("derive", tmp_path / "arm.urdf", "--format", "html", "-o", tmp_path / "page.html", "--samples", "2")

@@ -5,12 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-__all__ = ["Block", "Formula", "Paragraph", "Report", "Section", "Table"]
+from pinscrew.ground.escaping import visible
+
+__all__ = ["Block", "Formula", "Paragraph", "Report", "Section", "Table", "from_file", "named"]
+
+
+def named(text: str) -> str:
+    """A name from a file for a `Paragraph`, a cell or a title, to be set as code: it means nothing there but itself.
+
+    It stands between characters for private use, which `visible` leaves in no name.
+    """
+    return f"\ue000{visible(text)}\ue001"
+
+
+def from_file(text: str) -> str:
+    """Other text with parts from a file, as `named` but set as plain text."""
+    return f"\ue002{visible(text)}\ue001"
 
 
 @dataclass(frozen=True, slots=True)
 class Paragraph:
-    """Plain text; what stands between dollars is LaTeX."""
+    """Plain text; what stands between dollars is LaTeX, between backquotes code; see `named` and `from_file` too."""
 
     text: str
 

@@ -10,6 +10,7 @@ from typing import Any, Final
 import sympy as sp
 
 from pinscrew.derivation.forms import ClosedForms
+from pinscrew.ground import escaping_code
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KindLike, jacobian_kind
 
@@ -66,7 +67,7 @@ def _header(d: ClosedForms, kind: str) -> tuple[str, ...]:
     units = ["rad" if v.symbol in turning or v.symbol not in sliding else "m" for v in d.coordinates]
     q = ", ".join(f"{v.joint} ({unit})" for v, unit in zip(d.coordinates, units, strict=True)) or "none"
     lengths = ", ".join(f"{s} = {float(value):.9g}" for s, value in d.lengths.items()) or "none"
-    lines = (
+    return (
         f"Kinematics of {d.robot.name}: frame {d.tip} in frame {d.robot.base}.",
         f"Closed forms by pinscrew {importlib.metadata.version('pinscrew')}; lengths in m, angles in rad.",
         f"q, in this order: {q}",
@@ -74,7 +75,6 @@ def _header(d: ClosedForms, kind: str) -> tuple[str, ...]:
         "fk: pose T, 4 by 4: p_base = T p_tip",
         f"jacobian: {kind} Jacobian, 6 by {len(d.coordinates)}; rows {rows}; columns as q",
     )
-    return tuple(" ".join(line.split()).replace("*/", "* /") for line in lines)
 
 
 def _function(d: ClosedForms, name: str, matrix: sp.Matrix) -> _Function:
@@ -103,7 +103,8 @@ def _python(source: _Source) -> str:
     from sympy.printing.pycode import PythonCodePrinter
 
     show = PythonCodePrinter({"fully_qualified_modules": True}).doprint
-    lines = ['"""' + source.header[0], "", *source.header[1:], '"""', "", "import math", ""]
+    header = [escaping_code.python_docstring(line) for line in source.header]
+    lines = ['"""' + header[0], "", *header[1:], '"""', "", "import math", ""]
     names = "".join(f", {s}={float(v)!r}" for s, v in source.lengths.items())
     for function in source.functions:
         lines += ["", f"def {function.name}(q{names}):"]
@@ -121,7 +122,13 @@ def _c(source: _Source) -> str:
     from sympy.printing.c import C99CodePrinter
 
     show: Callable[[Any], str] = C99CodePrinter().doprint
-    lines = ["/*", *(f" * {line}" for line in source.header), " * Matrices are stored row by row.", " */", ""]
+    lines = [
+        "/*",
+        *(f" * {escaping_code.c_comment(line)}" for line in source.header),
+        " * Matrices are stored row by row.",
+        " */",
+        "",
+    ]
     lines += ["#include <math.h>", "", "#ifndef M_PI", "#define M_PI 3.14159265358979323846", "#endif", ""]
     values = ", ".join(repr(float(v)) for v in source.lengths.values())
     if source.lengths:
@@ -159,7 +166,8 @@ def _indexed(
     """A language that counts from 1 and writes matrices in brackets, rows between semicolons."""
     matlab = comment == "%"
     values = ", ".join(repr(float(v)) for v in source.lengths.values())
-    lines = [f"{comment} {line}" for line in source.header]
+    escaped = escaping_code.matlab_comment if matlab else escaping_code.julia_comment
+    lines = [f"{comment} {escaped(line)}" for line in source.header]
     lines += [""] if matlab else ["", f"const default_lengths = Float64[{values}]", ""]
     for function in source.functions:
         lines.append(frame[0].format(name=function.name))

@@ -5,16 +5,17 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
-from pinscrew.derivation.typeset import escape
+from pinscrew.ground.escaping import latex, markdown
 
 __all__ = ["to_latex", "to_markdown", "to_notebook"]
 
 _LONG: Final = 90
 """Characters of a formula, roughly as seen, above which its parts go on lines of their own."""
-_PIECES: Final = re.compile(r"\$[^$]*\$|`[^`]*`")
+_PIECES: Final = re.compile("[\ue000\ue002][^\ue001]*\ue001|" r"\$[^$]*\$|`[^`]*`")
+_SIMPLE: Final = re.compile(r"\w[\w./ -]*\w|\w")
 
 
 def is_long(formula: Formula) -> bool:
@@ -33,7 +34,7 @@ def aligned(formula: Formula) -> str:
 
 def to_markdown(report: Report) -> str:
     """The report as Markdown with LaTeX between dollars, as GitHub and Jupyter read it."""
-    lines = [f"# {report.title}", ""]
+    lines = [f"# {_markdown_text(report.title)}", ""]
     for section in report.sections:
         lines += [f"## {section.heading}", ""]
         for block in section.blocks:
@@ -45,9 +46,21 @@ def _markdown(block: Block) -> str:
     if isinstance(block, Formula):
         return f"$$\n{aligned(block)}\n$$"
     if isinstance(block, Paragraph):
-        return block.text
+        return _markdown_text(block.text)
     rows = [block.head, tuple("---" for _ in block.head), *block.rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows)
+    return "\n".join("| " + " | ".join(_markdown_text(cell, in_table=True) for cell in row) + " |" for row in rows)
+
+
+def _markdown_text(text: str, *, in_table: bool = False) -> str:
+    """Our own text as it is, names escaped."""
+
+    def own(piece: str) -> str:
+        return piece.replace("|", r"\|") if in_table else piece
+
+    def code(name: str) -> str:
+        return f"`{name}`" if _SIMPLE.fullmatch(name) else f"<code>{markdown(name)}</code>"
+
+    return split_text(text, own, lambda math: own(f"${math}$"), code, markdown)
 
 
 _PREAMBLE: Final = r"""\documentclass[11pt]{article}
@@ -92,22 +105,25 @@ def _latex(block: Block) -> str:
 
 
 def _text(text: str) -> str:
-    return split_text(text, escape, lambda math: f"${math}$", lambda code: rf"\texttt{{{escape(code)}}}")
+    return split_text(text, latex, lambda math: f"${math}$", lambda code: rf"\texttt{{{latex(code)}}}", latex)
 
 
-def split_text(text: str, plain: Callable[[str], str], math: Callable[[str], str], code: Callable[[str], str]) -> str:
-    """A paragraph's text with its plain pieces, its mathematics and its code each treated in its own way."""
+Way: TypeAlias = Callable[[str], str]
+
+
+def split_text(text: str, plain: Way, math: Way, code: Way, from_file: Way) -> str:
+    """A paragraph's text with plain pieces, mathematics, code and names, and texts from files, each in its own way."""
     found, end = [], 0
     for match in _PIECES.finditer(text):
         found.append(plain(text[end : match.start()]))
-        found.append((math if match[0].startswith("$") else code)(match[0][1:-1]))
+        found.append({"$": math, "\ue002": from_file}.get(match[0][0], code)(match[0][1:-1]))
         end = match.end()
     return "".join((*found, plain(text[end:])))
 
 
 def to_notebook(report: Report) -> str:
     """The report as a Jupyter notebook: its first cell makes the derivation, its last proves it again."""
-    cells = [_cell("markdown", f"# {report.title}"), _cell("code", report.code)]
+    cells = [_cell("markdown", f"# {_markdown_text(report.title)}"), _cell("code", report.code)]
     for section in report.sections:
         if section.key == "proof":
             cells += [_cell("markdown", _section(section)), _cell("code", "proof = d.prove()\nproof.ok, proof.largest")]

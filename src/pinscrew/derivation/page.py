@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import re
-from html import escape
 from importlib.resources import files
 from typing import Final
 
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
 from pinscrew.derivation.formats import is_long, split_text
 from pinscrew.ground.errors import MissingExtraError
+from pinscrew.ground.escaping import html as escape
 
 __all__ = ["to_html"]
 
@@ -83,10 +84,24 @@ def to_html(report: Report) -> str:
     style = _STYLE.replace("FONT", base64.b64encode(font).decode("ascii"))
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{escape(_policy())}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{escape(report.title)}</title>\n<style>{style}</style>\n</head>\n<body>\n"
-        f"<h1>{escape(report.title)}</h1>\n<nav>{links}</nav>\n{failed}{body}<script>{_SCRIPT}</script>\n</body>\n</html>\n"
+        f"<title>{escape(_plain(report.title))}</title>\n<style>{style}</style>\n</head>\n<body>\n"
+        f"<h1>{_text(report.title)}</h1>\n<nav>{links}</nav>\n{failed}{body}<script>{_SCRIPT}</script>\n</body>\n</html>\n"
     )
+
+
+def _policy() -> str:
+    """The page runs its own script and loads nothing."""
+    digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode("ascii")
+    return (
+        f"default-src 'none'; script-src 'sha256-{digest}'; style-src 'unsafe-inline'; font-src data:; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def _plain(text: str) -> str:
+    return split_text(text, str, str, str, str)
 
 
 def _section(section: Section) -> str:
@@ -119,7 +134,9 @@ def _table(table: Table) -> str:
 
 
 def _text(text: str) -> str:
-    return split_text(text, escape, lambda math: _math(math, "inline"), lambda code: f"<code>{escape(code)}</code>")
+    return split_text(
+        text, escape, lambda math: _math(math, "inline"), lambda code: f"<code>{escape(code)}</code>", escape
+    )
 
 
 def _math(latex: str, display: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Final
 
 from pinscrew.derivation import formats, page
-from pinscrew.derivation.blocks import Block, Paragraph, Report, Section, Table
+from pinscrew.derivation.blocks import Block, Paragraph, Report, Section, Table, from_file, named
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
@@ -31,7 +31,7 @@ def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extr
     """
     d = derivation
     listed = (_given(d), *sections(d, parts), *extra, _proof(proof))
-    title = f"Closed-form kinematics of {d.robot.name}"
+    title = f"Closed-form kinematics of {from_file(d.robot.name)}"
     return Report(title, listed, _code(d), proof.ok)
 
 
@@ -42,8 +42,8 @@ def _given(derivation: Derivation) -> Section:
     n = NOTATIONS[d.convention]
     blocks: list[Block] = [
         Paragraph(
-            f"The motion of the frame `{d.tip}` in `{d.robot.base}`. Twists are in the order {n.order}; lengths are "
-            f"in metres, angles in radians. Equations are those of {n.book}."
+            f"The motion of the frame {named(d.tip)} in {named(d.robot.base)}. Twists are in the order {n.order}; "
+            f"lengths are in metres, angles in radians. Equations are those of {n.book}."
         )
     ]
     rows: list[tuple[str, ...]] = []
@@ -52,16 +52,16 @@ def _given(derivation: Derivation) -> Section:
         value = f"${t(joint.variable.symbol)}$"
         if joint.master is not joint.variable:
             value += f" $= {t(joint.multiplier * joint.master.symbol)}$"
-        rows.append((f"`{joint.variable.joint}`", kind, value))
+        rows.append((named(joint.variable.joint), kind, value))
     if rows:
         blocks.append(Table(("joint", "", "value"), tuple(rows)))
     if d.lengths:
         rows = [(f"${t(s)}$", f"{float(value):.9g}") for s, value in d.lengths.items()]
         blocks += [Paragraph("Symbols, and their values in this file:"), Table(("symbol", "value"), tuple(rows))]
-    blocks += [Paragraph(f"{remark[0].upper()}{remark[1:]}.") for remark in d.remarks]
+    blocks += [Paragraph(from_file(f"{remark[0].upper()}{remark[1:]}.")) for remark in d.remarks]
     if d.snapped:
         blocks.append(Paragraph("Numbers of the file that were taken for exact ones:"))
-        rows = [(s.where, f"`{s.printed}`", f"${t(s.value)}$", f"{s.change:.1e}") for s in d.snapped]
+        rows = [(from_file(s.where), named(s.printed), f"${t(s.value)}$", f"{s.change:.1e}") for s in d.snapped]
         blocks.append(Table(("where", "printed", "taken for", "change"), tuple(rows)))
     if not d.exact:
         blocks.append(Paragraph("Some numbers are not exact: they are kept to 30 decimals and shown to 6 digits."))

@@ -14,6 +14,7 @@ from pinscrew.derivation.chain import Variable, compose
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.forms import Convention
 from pinscrew.ground.errors import InputError
+from pinscrew.ground.escaping_code import Language, identifier
 from pinscrew.robot.loading import load
 from pinscrew.robot.robot import Robot
 
@@ -132,12 +133,19 @@ def _variables(joints: Mapping[str, reading.Printed], names: Naming) -> dict[str
         plain, typeset = f"{letter}{label}", f"{latex}_{{{label}}}"
         rate = rf"\dot{{{latex}}}_{{{label}}}"
         if names == "urdf":
-            plain = label = re.sub(r"\W", "_", joint.name)
-            typeset = r"\mathrm{" + joint.name.replace("_", r"\_") + "}"
+            plain = label = _identifier(joint.name)
+            typeset = r"\mathrm{" + plain.replace("_", r"\_") + "}"
             rate = rf"\dot{{{typeset}}}"
         symbols = sp.Symbol(plain, real=True), sp.Symbol(f"d{plain}", real=True)
         found[joint.name] = Variable(joint.name, label, *symbols, (typeset, rate))
     return found
+
+
+def _identifier(name: str) -> str:
+    """A name as an identifier of every language, and of none of the functions' own variables."""
+    for language in get_args(Language):
+        name = identifier(name, language)
+    return f"{name}_" if name in _RESERVED else name
 
 
 class _Lengths:
@@ -185,7 +193,7 @@ def _check_names(robot: Robot, lengths: Sequence[sp.Symbol], variables: Sequence
             raise _collision(name, "two joints have it")
     for symbol in lengths:
         name = str(symbol)
-        if not name.isidentifier() or keyword.iskeyword(name) or name in _RESERVED:
+        if not name.isidentifier() or (name.isascii() and _identifier(name) != name) or keyword.iskeyword(name):
             raise _collision(name, "code and formulas need it for something else", robot)
         if name in taken or _ATOM.fullmatch(name):
             raise _collision(name, "a joint's value, or a sine or cosine, has it", robot)

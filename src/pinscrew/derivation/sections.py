@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 
 import sympy as sp
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, named
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.parts import PARTS, wanted
@@ -95,7 +95,7 @@ class _Writer:
 
     def home(self) -> Iterable[Block]:
         d, n = self.d, self.n
-        yield Paragraph(f"At zero the frame `{d.tip}` stands in `{d.robot.base}` at")
+        yield Paragraph(f"At zero the frame {named(d.tip)} stands in {named(d.robot.base)} at")
         yield Formula((n.home, self.set.matrix(d.home)))
         if d.screws:
             yield Paragraph("and the joints that move it have these axes, each through a point $q$:")
