@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import pinscrew as ps
 import urdfs
 from pinscrew.description.model import Limits, Mimic
-from pinscrew.engines import pinocchio as engine_module
+from pinscrew.engines import expansion
 from pinscrew.engines.base import Answers
 from pinscrew.engines.pinocchio import MAX_COORDINATES, MAX_DEPTH
 from pinscrew.ground.errors import EngineError, PinscrewWarning, UnsupportedError
@@ -210,13 +210,13 @@ def test_too_long_chain() -> None:
 )
 def test_limits_are_inclusive(name: str, velocities: int, depth: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Mimic joints count as velocities, free joints as 3 or 6."""
-    monkeypatch.setattr(engine_module, "MAX_COORDINATES", velocities)
-    monkeypatch.setattr(engine_module, "MAX_DEPTH", depth)
+    monkeypatch.setattr(expansion, "MAX_COORDINATES", velocities)
+    monkeypatch.setattr(expansion, "MAX_DEPTH", depth)
     ps.Pinocchio(load(name))
-    monkeypatch.setattr(engine_module, "MAX_COORDINATES", velocities - 1)
+    monkeypatch.setattr(expansion, "MAX_COORDINATES", velocities - 1)
     assert f"{velocities} velocities" in str(refusal(urdfs.ROBOTS[name]))
-    monkeypatch.setattr(engine_module, "MAX_COORDINATES", velocities)
-    monkeypatch.setattr(engine_module, "MAX_DEPTH", depth - 1)
+    monkeypatch.setattr(expansion, "MAX_COORDINATES", velocities)
+    monkeypatch.setattr(expansion, "MAX_DEPTH", depth - 1)
     assert f"{depth} joints in a chain" in str(refusal(urdfs.ROBOTS[name]))
 
 

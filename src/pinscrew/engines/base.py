@@ -5,55 +5,22 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pinscrew.engines.answers import Answers, Bound, JointView
+from pinscrew.engines.asking import long_way
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
 from pinscrew.robot.manifold import quaternion_starts
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Answers", "CheckedEngine", "Engine", "JointView"]
+__all__ = ["Answers", "Bound", "CheckedEngine", "Engine", "JointView"]
 
 QUATERNION_TOLERANCE: Final = 1e-6
 """How far from 1 a quaternion's norm may be (float32 rounding); within it, it is normalised."""
-
-
-@dataclass(frozen=True, slots=True)
-class JointView:
-    """A joint as an engine's own parser saw it.
-
-    Attributes:
-        type: ``"fixed"``, ``"revolute"`` (continuous ones too), ``"prismatic"``, ``"planar"`` or ``"floating"``.
-        parent: the link above.
-        child: the link below.
-        limits: lower and upper limit of its value, or None where it has no single one or no bounds.
-        mimic: joint followed, multiplier and offset, or None.
-    """
-
-    type: str
-    parent: str
-    child: str
-    limits: tuple[float, float] | None = None
-    mimic: tuple[str, float, float] | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Answers:
-    """All answers of an engine about some frames at a batch of configurations.
-
-    Attributes:
-        poses: shape (N, F, 4, 4).
-        jacobians: by kind, shape (N, F, 6, nv).
-        derivatives: time derivatives of the Jacobians, by kind, shape (N, F, 6, nv).
-    """
-
-    poses: FloatArray
-    jacobians: Mapping[JacobianKind, FloatArray]
-    derivatives: Mapping[JacobianKind, FloatArray]
 
 
 class Engine(Protocol):
@@ -78,6 +45,9 @@ class Engine(Protocol):
 
     def fk_jacobian(self, q: ArrayLike, frame: str | None, kind: KindLike) -> tuple[FloatArray, FloatArray]:
         """Pose and Jacobian of ``frame``: ``q`` (..., nq) to (..., 4, 4) and (..., 6, nv)."""
+
+    def bind(self, frame: str | None, kind: KindLike) -> Bound:
+        """A question about one configuration at a time, with all that does not depend on it checked once."""
 
     def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian: ``q`` (..., nq) and ``qd`` (..., nv) to (..., 6, nv)."""
@@ -152,6 +122,28 @@ class CheckedEngine(ABC):
         flat, batch = self._coordinates(q)
         poses, jacobians = self._poses_and_jacobians(flat, frame, kind)
         return poses.reshape(*batch, 4, 4), jacobians.reshape(*batch, 6, self._robot.nv)
+
+    def bind(self, frame: str | None, kind: KindLike) -> Bound:
+        """A question about one configuration at a time, with all that does not depend on it checked once.
+
+        Args:
+            frame: a link's name; None for the robot's tip.
+            kind: see `jacobian`.
+
+        Returns:
+            ``ask``, for ``T, J = ask(q)``: what `fk_jacobian` says of one configuration, q of shape (nq,). With
+            ``out=(T, J)``, arrays of shapes (4, 4) and (6, nv), it writes there. It may be called from several
+            threads, and needs nobody to keep the engine. It raises `InputError` as `fk_jacobian` does.
+
+        Raises:
+            InputError, UnknownNameError, AmbiguousTipError: see `jacobian`.
+        """
+        name, kind = self._robot.frame(frame), jacobian_kind(kind)
+        return self._bound(name, kind, long_way(self._robot, lambda q: self.fk_jacobian(q, name, kind)))
+
+    def _bound(self, frame: str, kind: JacobianKind, rest: Bound) -> Bound:  # noqa: ARG002 (for those who know better)
+        """A bound question; an engine's short way leaves to ``rest`` all that is no good array of float64."""
+        return rest
 
     def jacobian_derivative(self, q: ArrayLike, qd: ArrayLike, frame: str | None, kind: KindLike) -> FloatArray:
         """Time derivative of the Jacobian along the velocities ``qd``.

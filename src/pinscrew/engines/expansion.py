@@ -6,15 +6,22 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pinscrew.description import markup
+from pinscrew.ground.errors import UnsupportedError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Driven", "Expansion", "read_mimics"]
+__all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Driven", "Expansion", "check_size", "read_mimics"]
+
+MAX_COORDINATES: Final = 200
+"""Pinocchio's data grows with the cube of the velocities: 0.6 GB for 200, 8 GB for 500."""
+MAX_DEPTH: Final = 1000
+"""Longest chain of moving joints; Pinocchio's stack overflows at about 3500."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,3 +116,26 @@ def read_mimics(robot: Robot) -> dict[str, tuple[str, float, float]]:
 
 def _store_angle(out: FloatArray, angle: FloatArray) -> None:
     out[:, 0], out[:, 1] = np.cos(angle), np.sin(angle)
+
+
+def check_size(robot: Robot) -> None:
+    """Refuse a robot that Pinocchio takes too long for, or ends the process over.
+
+    Raises:
+        UnsupportedError: if it has more than `MAX_COORDINATES` velocities or `MAX_DEPTH` joints in a chain.
+    """
+    depths = {robot.base: 0}
+    for joint in robot.description.joints:
+        depths[joint.child] = depths[joint.parent] + 1
+    velocities = sum(motion.freedoms for motion in robot.mechanism.motions)
+    for count, limit, what in (
+        (velocities, MAX_COORDINATES, "velocities (mimic joints counted)"),
+        (max(depths.values()), MAX_DEPTH, "joints in a chain"),
+    ):
+        if count > limit:
+            raise UnsupportedError(
+                "pinocchio-size",
+                f"{count} {what} are more than the {limit} that the Pinocchio engine takes",
+                file=robot.description.file,
+                remedy="use the PoE engine, which has no such limit",
+            )

@@ -19,20 +19,17 @@ import numpy as np
 import pinocchio as pin
 from numpy import ndarray
 
-from pinscrew.engines.base import Answers, CheckedEngine, JointView
-from pinscrew.engines.expansion import Driven, Expansion, read_mimics
+from pinscrew.engines.asking import Answer, written
+from pinscrew.engines.base import Answers, Bound, CheckedEngine, JointView
+from pinscrew.engines.expansion import MAX_COORDINATES, MAX_DEPTH, Driven, Expansion, check_size, read_mimics
 from pinscrew.engines.native import standard_error_to
-from pinscrew.ground.errors import EngineError, UnsupportedError
+from pinscrew.ground.errors import EngineError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
 from pinscrew.robot.robot import UNIVERSE, Robot
 
 __all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Pinocchio"]
 
-MAX_COORDINATES: Final = 200
-"""Pinocchio's data grows with the cube of the velocities: 0.6 GB for 200, 8 GB for 500."""
 _DOUBLE: Final = np.dtype(np.float64)
-MAX_DEPTH: Final = 1000
-"""Longest chain of moving joints; Pinocchio's stack overflows at about 3500."""
 
 # Looked up once: of one configuration, even that can be measured.
 _forward_kinematics: Final = pin.forwardKinematics
@@ -65,7 +62,7 @@ class Pinocchio(CheckedEngine):
             EngineError: if Pinocchio refuses the file; the message carries its words.
         """
         super().__init__(robot)
-        _check_size(robot)
+        check_size(robot)
         self.model = _build(robot)
         self._threads = threading.local()
         self._mimics = read_mimics(robot)
@@ -154,6 +151,33 @@ class Pinocchio(CheckedEngine):
         pose: FloatArray = _place_frame(model, data, index).homogeneous
         J: FloatArray = _frame_jacobian(model, data, index, reference)
         return pose, J if self._plain else self._folded(J)
+
+    def _bound(self, frame: str, kind: JacobianKind, rest: Bound) -> Bound:
+        """See `CheckedEngine.bind`. Pinocchio itself complains of shapes; of what is not finite, nobody else does."""
+        if (shape := self._one) is None:
+            return rest
+        model, threads, plain, folded = self.model, self._threads, self._plain, self._folded
+        expand = None if self._identical else self._expansion.one
+        index, reference = self._frames[frame], _REFERENCE[kind]
+
+        def ask(q: ArrayLike, *, out: Answer | None = None) -> Answer:
+            try:
+                if q.dtype is not _DOUBLE or not isfinite(sum(values := q.tolist())):  # type: ignore[union-attr]
+                    return rest(q, out=out)
+                if expand is None:
+                    _joint_jacobians(model, data := threads.data, q)
+                elif q.shape == shape:  # type: ignore[union-attr]
+                    _joint_jacobians(model, data := threads.data, expand(q, values))  # type: ignore[arg-type]
+                else:
+                    return rest(q, out=out)
+            except (AttributeError, TypeError, ValueError):  # no array, or a thread's first question
+                return rest(q, out=out)
+            pose: FloatArray = _place_frame(model, data, index).homogeneous
+            J: FloatArray = _frame_jacobian(model, data, index, reference)
+            answer = pose, J if plain else folded(J)
+            return answer if out is None else written(answer, out)
+
+        return ask
 
     def _alone(self, q: Any) -> FloatArray | None:
         """What Pinocchio takes for ``q``, if that is one good configuration of joints with one value each."""
@@ -260,24 +284,6 @@ def _kind(joint: Any) -> str:
     if "Planar" in name:
         return "planar"
     return "prismatic" if name.startswith("JointModelP") else "revolute"
-
-
-def _check_size(robot: Robot) -> None:
-    depths = {robot.base: 0}
-    for joint in robot.description.joints:
-        depths[joint.child] = depths[joint.parent] + 1
-    velocities = sum(motion.freedoms for motion in robot.mechanism.motions)
-    for count, limit, what in (
-        (velocities, MAX_COORDINATES, "velocities (mimic joints counted)"),
-        (max(depths.values()), MAX_DEPTH, "joints in a chain"),
-    ):
-        if count > limit:
-            raise UnsupportedError(
-                "pinocchio-size",
-                f"{count} {what} are more than the {limit} that the Pinocchio engine takes",
-                file=robot.description.file,
-                remedy="use the PoE engine, which has no such limit",
-            )
 
 
 def _build(robot: Robot) -> Any:

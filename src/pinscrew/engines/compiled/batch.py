@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from pinscrew.engines.answers import Bound
 from pinscrew.engines.compiled import can_compile, say_slow
 from pinscrew.engines.compiled.chain import LARGEST_ANGLE, Part, Question, chain_to
 from pinscrew.engines.compiled.outputs import Results, outputs, thread_count
@@ -36,7 +37,7 @@ BLOCK: Final = 2048
 """Configurations of a block of `Batch.reduce`: its results stay in the cache."""
 MOST_NUMBERS: Final = 2**13
 """Numbers about each configuration up to which a kernel is compiled; it then takes 1 MB of the stack. Compiling more
-takes longer than numpy does for as many configurations as fit in the memory."""
+takes longer than numpy does for what fits in memory."""
 
 
 class Batch(PoE):
@@ -155,8 +156,7 @@ class Batch(PoE):
             shape (..., [F]).
         """
         if part not in ("all", "translation", "rotation"):
-            what = f"part={part!r}"
-            raise InputError("part", what, remedy="use 'all', 'translation' or 'rotation'")
+            raise InputError("part", f"part={part!r}", remedy="use 'all', 'translation' or 'rotation'")
         (measures,) = self._answer(q, frame, Question(part=part), [out], threads)
         return measures
 
@@ -188,8 +188,7 @@ class Batch(PoE):
             what = f"q has the batch axes {numbers.shape[:-1]}"
             raise InputError("shape", what, where=self._robot.name, remedy="give one axis of N configurations")
         self._refuse_not_finite(numbers, "q", self._robot.coordinate_names)  # blocks would count their own rows
-        state = initial
-        out = self.fk_jacobian(numbers[:BLOCK], frame, kind, threads=1)
+        state, out = initial, self.fk_jacobian(numbers[:BLOCK], frame, kind, threads=1)
         for start in range(0, len(numbers), BLOCK):
             rows = slice(start, min(start + BLOCK, len(numbers)))
             T, J = out[0][: rows.stop - start], out[1][: rows.stop - start]
@@ -202,6 +201,14 @@ class Batch(PoE):
 
     def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
         return self.jacobian(q, frame, kind)
+
+    def _bound(self, frame: str, kind: JacobianKind, rest: Bound) -> Bound:
+        chain = chain_to(self._robot, frame)
+        if chain is not None and can_compile() and self._robot.nv:
+            from pinscrew.engines.compiled.single import short_way
+
+            return short_way(chain, kind, self._robot, rest)
+        return rest
 
     def _numbers(self, q: ArrayLike) -> NDArray[Any]:
         """``q`` as a contiguous array of float32 or float64, not yet known to be finite."""
@@ -218,20 +225,17 @@ class Batch(PoE):
     ) -> list[FloatArray]:
         """The parts of the answer, in the order of `Question`."""
         one = isinstance(frame, str) or not isinstance(frame, Iterable)
-        asked = cast("Sequence[str | None]", [frame] if one else frame)
-        names = tuple(self._robot.frame(name) for name in asked)
+        names = tuple(self._robot.frame(name) for name in cast("Sequence[str | None]", [frame] if one else frame))
         if not names:
             raise InputError("frames", "there are no frames to compute", remedy="name one or more")
         count = self._threads if threads is None else thread_count(threads)
         numbers = self._numbers(q)
-        batch = numbers.shape[:-1]
-        ends = question.shapes(self._robot.nv)
+        batch, ends = numbers.shape[:-1], question.shapes(self._robot.nv)
         start = batch if one else (*batch, len(names))
         shapes = [(*start, *end) for end in ends]
         results = outputs(given, shapes, numbers, self._robot.name)
-        length = math.prod(batch)
+        flat_q = numbers.reshape(length := math.prod(batch), self._robot.nq)
         flat = [array.reshape(length, len(names), *end) for array, end in zip(results, ends, strict=True)]
-        flat_q = numbers.reshape(length, self._robot.nq)
         kernel = self._kernel(names, question, numbers.dtype == np.float32, flat[0].dtype == np.float32)
         if kernel is None or not kernel.run(flat_q, flat, count):
             self._refuse_not_finite(numbers, "q", self._robot.coordinate_names)
@@ -244,8 +248,7 @@ class Batch(PoE):
         if key not in self._kernels:
             kernel = None
             chains = [chain_to(self._robot, name) for name in names]
-            known = [chain for chain in chains if chain is not None]
-            robot = self._robot
+            known, robot = [chain for chain in chains if chain is not None], self._robot
             few = len(names) * sum(map(math.prod, question.shapes(robot.nv))) <= MOST_NUMBERS
             if can_compile() and robot.nv and few and len(known) == len(chains):
                 from pinscrew.engines.compiled.rows import compile_kernel

@@ -10,11 +10,11 @@ from typing import Final
 from llvmlite import ir
 
 from pinscrew.engines.compiled.chain import LARGEST_ANGLE, Chain, Part, Question
-from pinscrew.engines.compiled.kernel import Kernel
+from pinscrew.engines.compiled.kernel import Kernel, Rows
 from pinscrew.engines.compiled.lanes import Lanes
 from pinscrew.engines.compiled.walk import Move, Number, columns, manipulability, pose
 
-__all__ = ["compile_kernel"]
+__all__ = ["compile_kernel", "rows_of"]
 
 _ROWS_OF: Final[dict[Part, slice]] = {"all": slice(0, 6), "translation": slice(0, 3), "rotation": slice(3, 6)}
 
@@ -28,6 +28,12 @@ def compile_kernel(chains: Sequence[Chain], question: Question, nq: int, nv: int
         nq, nv: how many coordinates and velocities the robot has.
         single: whether coordinates, and whether results, are float32.
     """
+    lengths = [math.prod(shape) * len(chains) for shape in question.shapes(nv)]
+    return Kernel(nq, rows_of(chains, question, nv), lengths, single)
+
+
+def rows_of(chains: Sequence[Chain], question: Question, nv: int) -> Rows:
+    """The arithmetic from coordinates to the parts of the answer; see `compile_kernel`."""
 
     def rows(q: list[Lanes]) -> tuple[list[list[Number]], list[ir.Value]]:
         good = [x.within(sys.float_info.max) for x in q]
@@ -49,8 +55,7 @@ def compile_kernel(chains: Sequence[Chain], question: Question, nq: int, nv: int
             answers.append(_about(chain, question, moves, nv, one))
         return [[number for part in parts for number in part] for parts in zip(*answers, strict=True)], good
 
-    lengths = [math.prod(shape) * len(chains) for shape in question.shapes(nv)]
-    return Kernel(nq, rows, lengths, single)
+    return rows
 
 
 def _about(chain: Chain, question: Question, moves: Sequence[Move], nv: int, one: Lanes) -> list[list[Number]]:
