@@ -108,3 +108,21 @@ def test_names_of_joints() -> None:
     d = ps.derive(robot, names="urdf")
     assert [str(v.symbol) for v in d.coordinates] == ["joint1", "joint2", "joint3"]
     assert d.prove(5).ok
+
+
+def test_symbols_are_the_same_whatever_was_asked_for() -> None:
+    fresh, used = (ps.derive(ps.load("planar_rrr")) for _ in range(2))
+    assert used.adjoint.shape == (6, 6)
+    assert fresh.symbols.keys() >= {"l1", "theta1", "dtheta3", "c1", "s2", "c12", "s123", "s23"}
+    assert fresh.symbols.keys() <= used.symbols.keys()
+
+
+def test_equal_takes_a_person_s_own_symbols_and_matrices() -> None:
+    """Of assignments' A1: p = [-r s1c2, r c1c2, L0 - r s2]."""
+    d = ps.derive(ps.load("spherical_rrp"))
+    t1, t2, t3, L0, L3 = sp.symbols("theta1 theta2 theta3 L0 L3")
+    p = [-(L3 + t3) * sp.sin(t1) * sp.cos(t2), (L3 + t3) * sp.cos(t1) * sp.cos(t2), L0 - (L3 + t3) * sp.sin(t2)]
+    assert d.equal(d.pose[:3, 3], sp.Matrix(p))
+    assert not d.equal(d.pose[:3, 3], sp.Matrix([p[0], p[1], -p[2]]))
+    assert not d.equal(d.pose[:3, 3], sp.Matrix([p]))
+    assert d.equal(d.pose[2, 3], p[2])

@@ -50,3 +50,20 @@ def test_ur5() -> None:
 def test_what_is_not_offered_is_said() -> None:
     assert "follow" in ps.derive(ps.load("lead_screw")).singularities.words
     assert "more than six" in ps.derive(ps.load("panda"), "panda_hand_tcp").singularities.words
+
+
+SQUARES = {
+    "spherical_rrp": "(1 + (L3 + theta3)**2)*(1 + (L3 + theta3)**2*c2**2)",
+    "planar_2r": "1 + c2**2",
+    "anthropomorphic_rrr": "l2**2*(1 + l3**2*s3**2)*(1 + (l2*s2 + l3*s23)**2)",
+    "scara_rrp": "l1**2*(1 + l2**2*s2**2)",
+}
+
+
+@pytest.mark.parametrize("robot", SQUARES)
+def test_sums_of_squares_that_vanish_nowhere(robot: str) -> None:
+    """1 + r² is not taken for a condition, and is written so that it is seen."""
+    d = ps.derive(ps.load(robot))
+    measure = d.singularities.measures[0]
+    assert measure.factors == ()
+    assert measure.value == sp.sympify(SQUARES[robot], locals=dict(d.symbols))

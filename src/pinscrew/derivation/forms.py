@@ -16,7 +16,7 @@ from pinscrew.derivation.chain import Elements, ScrewChain, Variable
 from pinscrew.derivation.exact import Snapped
 from pinscrew.derivation.factoring import Factoring
 from pinscrew.derivation.reading import JointGeometry
-from pinscrew.ground.typing import KindLike, jacobian_kind
+from pinscrew.ground.typing import KINDS, KindLike, jacobian_kind
 from pinscrew.robot.robot import Robot
 
 __all__ = ["ClosedForms", "Convention", "JointScrew"]
@@ -105,7 +105,18 @@ class ClosedForms:
 
     @property
     def symbols(self) -> Mapping[str, sp.Symbol]:
-        """Every symbol by its name: lengths, values and rates of joints, sines and cosines made so far."""
+        """Every symbol by its name: lengths, values and rates of joints, sines and cosines of the closed forms.
+
+        They are those of each joint, of the sums of angles that are in the pose and in the Jacobians, whatever was
+        asked for before, and any that were made since.
+        """
+        for joint in self.chain.joints:
+            if joint.revolute:
+                algebra, angle = self.chain.algebra, joint.variable.symbol
+                self.write(np.array([[algebra.cosine(angle), algebra.sine(angle)]], dtype=object))
+        for kind in KINDS:
+            self.columns(kind)
+        _ = self.pose
         values = [s for variable in self.variables for s in (variable.symbol, variable.rate)]
         return {str(symbol): symbol for symbol in (*self.lengths, *values, *self.atoms.explicit)}
 
@@ -260,7 +271,9 @@ class ClosedForms:
         return self.explicit(expression).xreplace(dict(self.follows))
 
     def equal(self, a: Any, b: Any) -> bool:
-        """Whether two polynomial expressions in lengths, sines and cosines are identically equal.
+        """Whether two expressions or matrices, polynomial in lengths, sines and cosines, are identically equal.
+
+        Their symbols may be one's own, such as ``sympy.Symbol("L3")``: a symbol is known by its name.
 
         Both are brought to the normal form of `trig`, so the answer is exact, both ways (to 20 digits, where
         numbers are not `exact`).
@@ -268,7 +281,12 @@ class ClosedForms:
         Raises:
             TypeError: if they are no such expressions.
         """
-        return not self.chain.algebra.read(self.explicit(sp.sympify(a) - sp.sympify(b)))
+        left, right = (sp.Matrix(x) if hasattr(x, "shape") else sp.Matrix([[sp.sympify(x)]]) for x in (a, b))
+        if left.shape != right.shape:
+            return False
+        known = self.symbols
+        difference = (left - right).xreplace({s: known.get(s.name, s) for s in (left - right).free_symbols})
+        return not any(self.chain.algebra.read(x) for x in self.explicit(difference))
 
     def write(self, elements: Elements) -> sp.ImmutableMatrix:
         """A matrix in normal form as one of expressions."""

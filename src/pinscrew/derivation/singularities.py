@@ -21,6 +21,7 @@ from sympy.polys.rings import PolyElement, PolyRing
 from pinscrew.derivation.chain import Elements
 from pinscrew.derivation.factoring import operations
 from pinscrew.derivation.forms import ClosedForms
+from pinscrew.derivation.squares import blocks, sum_of_squares
 from pinscrew.derivation.trig import Algebra, Element
 
 __all__ = ["Measure", "Singularities", "singularities"]
@@ -82,13 +83,13 @@ def singularities(derivation: ClosedForms) -> Singularities:
                 "metres to radians, so its size means nothing; where it is zero does."
             )
             body = d.normal.body
-            found.append(trig.measure(r"\det\left( (J^{b})^{T} J^{b} \right)", trig.gram(body)))
+            found.append(trig.squares(r"\det\left( (J^{b})^{T} J^{b} \right)", body))
             position = body[:3][[bool(row.any()) for row in body[:3]]]
             if len(position) == n:
                 found.append(trig.measure(r"\det J_{v}", trig.determinant(position)))
                 words += " $J_{v}$ has the rows of the tool's origin that are not zero everywhere."
             elif len(position) > n:
-                found.append(trig.measure(r"\det\left( J_{v}^{T} J_{v} \right)", trig.gram(position)))
+                found.append(trig.squares(r"\det\left( J_{v}^{T} J_{v} \right)", position))
                 words += " $J_{v}$ has the rows of the tool's origin that are not zero everywhere."
     except _TooLongError:
         return Singularities("Its determinant is too long to be of use.", ())
@@ -157,14 +158,33 @@ class _Polynomials:
         """The determinant of a square matrix of elements."""
         return self._determinant([[self.polynomial(x) for x in row] for row in matrix])
 
-    def gram(self, matrix: Elements) -> PolyElement:
-        """det(AᵀA) = Σ (minors of A with all columns)², by Cauchy and Binet."""
-        rows = [[self.polynomial(x) for x in row] for row in matrix]
-        out = self.ring.zero
-        for chosen in combinations(range(len(rows)), matrix.shape[1]):
-            minor = self._determinant([rows[i] for i in chosen])
-            out = self.reduced(out + minor * minor)
-        return out
+    def squares(self, name: str, matrix: Elements) -> Measure:
+        """det(AᵀA) in factors that are sums of squares, so that it is seen whether they can vanish.
+
+        By Cauchy and Binet it is Σ m², over the minors m of A with all columns. Where A falls into blocks (columns
+        that share no row with the others), it is the product of those of the blocks. Example, the spherical arm:
+        column 1 of J^b has -r c2, -s2, c2 in rows of its own, whose squares are 1 + r² c2².
+        """
+        value, factors = sp.Integer(1), []
+        for rows, columns in blocks(matrix):
+            block = matrix[np.ix_(rows, columns)]
+            minors = [self._minor(block[list(chosen)]) for chosen in combinations(range(len(rows)), len(columns))]
+            minors = [minor for minor in minors if minor]
+            if not minors:
+                return Measure(name, sp.Integer(0), ())
+            common, rest = sum_of_squares(minors, self.d.atoms.explicit)
+            value *= rest * sp.Mul(*(factor**2 for factor in common))
+            factors += [factor for factor in common if self._varies(factor)]
+            if self._varies(rest) and not any(term.is_positive for term in sp.Add.make_args(rest)):
+                factors.append(rest)
+        return Measure(name, value, tuple(dict.fromkeys(factors)))
+
+    def _minor(self, rows: Elements) -> sp.Expr:
+        poly = self.determinant(rows)
+        return self.measure("", poly).value
+
+    def _varies(self, expression: sp.Expr) -> bool:
+        return bool(expression.free_symbols & (self.d.atoms.explicit.keys() | set(self.d.joint_values)))
 
     def _determinant(self, rows: Sequence[Sequence[PolyElement]]) -> PolyElement:
         """Laplace's expansion, row by row over sets of columns."""
