@@ -48,8 +48,7 @@ OUTSIDE = {
     "click": "cli",
     "rich": "cli",
     "pytest": "pytest_plugin",
-    "tomllib": "pytest_plugin",
-    "tomli": "pytest_plugin",
+    "tomli": "changes",
 }
 """Where an outside package may be imported: that module, or in that package."""
 

@@ -108,8 +108,8 @@ def test_nothing_without_the_option(project: pytest.Pytester) -> None:
 
         def test_modules():
             ours = {name for name in sys.modules if name.partition(".")[0] == "pinscrew"}
-            light = {"pinscrew.ground", "pinscrew.ground.displays", "pinscrew.ground.version"}
-            assert ours == {"pinscrew", "pinscrew.pytest_plugin", *light}
+            heavier = {name for name in ours if not name.startswith("pinscrew.ground")}
+            assert heavier == {"pinscrew", "pinscrew.pytest_plugin"}
             assert not {"numpy", "pinocchio", "yourdfpy", "xacro", "click"} & set(sys.modules)
         """
     )
@@ -351,7 +351,7 @@ def test_options_come_before_the_file(project: pytest.Pytester) -> None:
     done.stdout.fnmatch_lines(["pinscrew: robot files: 1, samples: 2, seed: 5"])
 
 
-KNOWN = "known are: samples, seed, tolerance, exclude, robots"
+KNOWN = "known are: samples, seed, tolerance, exclude, fail_on, robots"
 KNOWN_ROBOT = "known are: file, name, arguments, packages, frames"
 WRONG = {
     "unknown key": ("[tool.pinscrew]\nsample = 3", f"tool.pinscrew has a key 'sample', which does not exist; {KNOWN}"),

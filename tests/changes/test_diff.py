@@ -198,7 +198,8 @@ def test_json_and_markdown() -> None:
     found = ps.diff(urdfs.load(ARM), b)
     document = json.loads(found.to_json(), parse_constant=pytest.fail)
     assert document["schema"] == "pinscrew.diff/1"
-    assert set(document) == {"schema", "a", "b", "same", "changes", "notes", "displacement"}
+    parts = {"schema", "a", "b", "same", "fail_on", "passes", "changes", "notes", "displacement"}
+    assert set(document) == parts
     assert set(document["changes"][0]) == {"kind", "joint", "link", "words", "length", "angle", "line"}
     assert document["displacement"]["length_at"]["frame"] == "tool"
     assert document["notes"][0]["kind"] == "robot-renamed"

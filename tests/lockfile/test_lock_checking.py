@@ -63,7 +63,6 @@ VISUAL: Final = '<visual><geometry><sphere radius="1"/></geometry></visual>'
 FORMATTING: Final = {
     "a remark": edit("><", ">\n<!-- a remark -->\n<"),
     "digits": edit("0.3 0 0.2", "0.30 0.0 2e-1"),
-    "the robot's name": edit('name="small"', 'name="other"'),
     "the last bit": edit("0.1 -0.4 0.2", "0.1 -0.4 0.20000000000000004"),
     "a visual": edit('<link name="l1"/>', f'<link name="l1">{VISUAL}</link>'),
     "a longer axis": edit("0.6 0 -0.8", "0.60000000003 0 -0.80000000004"),
@@ -101,6 +100,7 @@ PLACED_ANEW: Final = {
     "an intermediate frame": turned_frame,
     "velocity": edit('effort="1" velocity="1"', 'effort="1" velocity="2"'),
     "effort": edit('effort="1" velocity="1"', 'effort="2" velocity="1"'),
+    "the robot's name": edit('name="small"', 'name="other"'),
     "an intermediate link's name": lambda: ARM.replace('"l2"', '"flange"'),
 }
 
@@ -221,8 +221,11 @@ def test_locks_elsewhere(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyP
     for source in (file, Path("arm.urdf")):
         lock.write_text(lockfile.text(ps.load(source), lock))
         assert '"source": "../../arm.urdf"' in lock.read_text()
-        assert lockfile.check(lock).same
-        assert lockfile.check(Path("locks/deep/arm.urdf.lock")).same
+        assert lockfile.check(lock, allow_outside=True).same
+        assert lockfile.check(Path("locks/deep/arm.urdf.lock"), allow_outside=True).same
+        with pytest.raises(DescriptionError, match="is outside its folder") as caught:
+            lockfile.check(lock)
+        assert caught.value.code == "lock-outside"
 
 
 def test_without_the_source(file: Path) -> None:

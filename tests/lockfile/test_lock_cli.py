@@ -70,7 +70,7 @@ def test_nothing_is_written_if_any_robot_fails(here: Path) -> None:
 def test_what_cannot_be_written(here: Path) -> None:
     (here / "folder.urdf.lock").mkdir()
     for path in ("nowhere/arm.urdf.lock", "folder.urdf.lock"):
-        assert f"{path}: can't be written" in refused("lock", "arm.urdf", "--output", path)
+        assert f"{path}: can't be written" in refused("lock", "arm.urdf", "--output", path, "--allow-outside")
     assert not [path for path in here.rglob("*") if path.is_file() and ".lock" in path.name]
 
 
@@ -100,8 +100,8 @@ def test_other_suffixes(here: Path) -> None:
     (here / "arm.xml").write_text(urdfs.rotated())
     assert "name the lock with --output, such as arm.urdf.lock" in refused("lock", "arm.xml")
     assert "so --check would not find it" in refused("lock", "arm.xml", "--output", "arm.lock")
-    ok("lock", "arm.xml", "--output", "arm.urdf.lock")
-    assert "arm.urdf.lock: the same" in ok("lock", "--check").out
+    ok("lock", "arm.xml", "--output", "other.urdf.lock")
+    assert "other.urdf.lock: the same" in ok("lock", "--check").out
 
 
 def test_arguments_tip_and_base_are_kept(here: Path) -> None:
@@ -122,8 +122,11 @@ def test_several_locks_of_one_file(here: Path) -> None:
     assert "two robots for the lock" in refused("lock", "slim.urdf.xacro", "slim.urdf.xacro", "l1:=0.5")
     (here / "locks").mkdir()
     for length in ("0.5", "0.6"):
-        ok("lock", "slim.urdf.xacro", f"l1:={length}", "--output", f"locks/slim_{length}.xacro.lock")
-    done = ok("lock", "--check")
+        words = ("lock", "slim.urdf.xacro", f"l1:={length}", "--output", f"locks/slim_{length}.xacro.lock")
+        assert "is outside its folder" in refused(*words)
+        ok(*words, "--allow-outside")
+    assert run("lock", "--check").status == 2
+    done = ok("lock", "--check", "--allow-outside")
     assert done.out.splitlines()[-1] == "2 of 2 mechanisms are those of their locks"
     assert "--output takes one robot" in refused("lock", "arm.urdf", "slim.urdf.xacro", "--output", "x.urdf.lock")
 

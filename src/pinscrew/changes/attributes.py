@@ -160,5 +160,6 @@ def renames(step: Step, a: Description, b: Description) -> tuple[list[Change], l
             notes.append(_change("joint-renamed", step, f"it was called {joint.name!r}"))
     if joint.child != now.child and joint.child not in b.links and now.child not in a.links:
         words = f"link {now.child!r} was called {joint.child!r}"
-        notes.append(Change("link-renamed", now.name, now.child, words, line=now.line, file=now.file))
+        tip = now.child in b.leaves
+        notes.append(Change("link-renamed", now.name, now.child, words, line=now.line, file=now.file, tip=tip))
     return changes, notes

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pinscrew.changes.document import document
-from pinscrew.changes.outcome import ChangesData
+from pinscrew.changes.document import document, failing, passes
+from pinscrew.changes.outcome import Change, ChangesData
 from pinscrew.reporting.document import Document
 from pinscrew.reporting.documented import Documented
 
@@ -18,6 +18,16 @@ class Changes(Documented, ChangesData):
 
     Its JSON has the schema ``pinscrew.diff/1``, its Markdown a heading and lists.
     """
+
+    @property
+    def passes(self) -> bool:
+        """Whether the motion is the same, and no note is one to fail on."""
+        return passes(self)
+
+    @property
+    def failing(self) -> tuple[Change, ...]:
+        """The changes, and the notes to fail on."""
+        return failing(self)
 
     def document(self) -> Document:
         """The changes in no format yet."""

@@ -5,15 +5,26 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any, Final
 
+from pinscrew.changes.gates import failing_gate, let_pass
 from pinscrew.changes.outcome import Change, ChangesData, TipPlace
 from pinscrew.changes.wording import degrees, millimetres, number
 from pinscrew.ground.errors import PinscrewError
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Document, Line, Section, cases_of
+from pinscrew.reporting.document import Document, Line, Role, Section, cases_of
 from pinscrew.reporting.findings import Finding, Level
 from pinscrew.reporting.troubles import from_error
 
-__all__ = ["SCHEMA", "TASK", "as_data", "document", "failure", "findings", "lines", "summary"]
+__all__ = [
+    "SCHEMA",
+    "TASK",
+    "as_data",
+    "document",
+    "failing",
+    "failure",
+    "findings",
+    "passes",
+    "sentences",
+]
 
 SCHEMA: Final = "pinscrew.diff/1"
 TASK: Final = "pinscrew diff"
@@ -27,12 +38,12 @@ def document(changes: ChangesData) -> Document:
     told = findings(changes, title, changed="motion-changed", kept="motion-kept")
     section = Section(
         title=title,
-        heading=summary(changes),
-        lines=lines(changes),
+        heading=_summary(changes),
+        lines=_lines(changes),
         notes_heading="Without a change of the motion:",
         cases=cases_of(told),
     )
-    return Document(TASK, changes.same, (section,), told, _data(changes))
+    return Document(TASK, passes(changes), (section,), told, _data(changes))
 
 
 def failure(title: str, error: PinscrewError) -> Document:
@@ -43,39 +54,66 @@ def failure(title: str, error: PinscrewError) -> Document:
     return Document(TASK, ok=False, sections=(section,), findings=(finding,))
 
 
-def summary(changes: ChangesData) -> str:
+def passes(changes: ChangesData) -> bool:
+    """Whether there is no change, and no note to fail on."""
+    return not failing(changes)
+
+
+def failing(changes: ChangesData) -> tuple[Change, ...]:
+    """The changes, and the notes to fail on."""
+    return (*changes.changes, *(note for note in changes.notes if failing_gate(note, changes.fail_on)))
+
+
+def _summary(changes: ChangesData) -> str:
     """One line: what was compared, and the outcome."""
     count = len(changes.changes)
     outcome = "the motion is the same" if changes.same else f"{count} change{'s' * (count > 1)}"
     notes = len(changes.notes)
     remarked = f", {notes} note{'s' * (notes > 1)}" if notes else ""
+    to_fail = len(failing(changes)) - len(changes.changes)
+    remarked += f" ({to_fail} to fail on)" if to_fail else ""
     return f"{one_line(changes.a)} → {one_line(changes.b)}: {outcome}{remarked}"
 
 
-def lines(changes: ChangesData) -> tuple[Line, ...]:
-    """The changes, the notes, and how far the tips come apart."""
+def _lines(changes: ChangesData) -> tuple[Line, ...]:
+    """The changes, the notes (first those to fail on), how far the tips come apart, and what was let pass."""
+    passed = let_pass(changes.notes, changes.fail_on)
     return (
-        *(Line(_placed(change), "fault", change.kind) for change in changes.changes),
-        *(Line(_placed(note), "note", note.kind) for note in changes.notes),
+        *sentences(changes, placed=True),
         *(Line(text) for text in _apart(changes)),
+        *([Line(passed)] if passed else []),
+    )
+
+
+def sentences(changes: ChangesData, *, placed: bool) -> tuple[Line, ...]:
+    """A line for each change and note, first those that fail; ``placed`` adds the lines of b's file."""
+
+    def line(change: Change, role: Role, why: str = "") -> Line:
+        return Line(f"{change.words}{why}{_place_of(change) if placed else ''}", role, change.kind)
+
+    gates = {id(note): failing_gate(note, changes.fail_on) for note in changes.notes}
+    return (
+        *(line(change, "fault") for change in changes.changes),
+        *(line(note, "fault", f"; fails on {gates[id(note)]}") for note in changes.notes if gates[id(note)]),
+        *(line(note, "note") for note in changes.notes if not gates[id(note)]),
     )
 
 
 def findings(changes: ChangesData, robot: str, *, changed: str, kept: str) -> tuple[Finding, ...]:
-    """An error for each change of the motion and a note for each edit that does not change it, by these rules."""
+    """An error for each change of the motion and each note to fail on, a note for each other edit, by these rules."""
 
     def finding(change: Change, rule: str, level: Level) -> Finding:
         return Finding(rule, level, one_line(change.words), change.file or changes.file, change.line, robot)
 
     return (
         *(finding(change, changed, "error") for change in changes.changes),
-        *(finding(note, kept, "note") for note in changes.notes),
+        *(finding(note, kept, "error" if failing_gate(note, changes.fail_on) else "note") for note in changes.notes),
     )
 
 
 def as_data(change: Change) -> dict[str, Any]:
     """A change as JSON has it; its file only where that is not b's."""
-    return {key: value for key, value in asdict(change).items() if key != "file" or value}
+    return {key: value for key, value in asdict(change).items() if key != "tip" and (key != "file" or value)}
 
 
 def _data(changes: ChangesData) -> dict[str, Any]:
@@ -85,6 +123,8 @@ def _data(changes: ChangesData) -> dict[str, Any]:
         "a": changes.a,
         "b": changes.b,
         "same": changes.same,
+        "fail_on": sorted(changes.fail_on),
+        "passes": passes(changes),
         "changes": [as_data(change) for change in changes.changes],
         "notes": [as_data(note) for note in changes.notes],
         "displacement": apart
@@ -97,10 +137,10 @@ def _data(changes: ChangesData) -> dict[str, Any]:
     }
 
 
-def _placed(change: Change) -> str:
+def _place_of(change: Change) -> str:
     if change.line is None:
-        return change.words
-    return f"{change.words} ({f'{change.file}:' if change.file else 'line '}{change.line})"
+        return ""
+    return f" ({f'{change.file}:' if change.file else 'line '}{change.line})"
 
 
 def _apart(changes: ChangesData) -> list[str]:

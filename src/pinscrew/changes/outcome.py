@@ -21,6 +21,7 @@ class Change:
         angle: how far something turned (rad); 0 where nothing did.
         line: line of the joint in b's file, or None where b does not have it.
         file: the file that has that line, where it is another: one that b's xacro file includes.
+        tip: whether the link is a tip frame's, in a note on a name or on a frame more.
     """
 
     kind: str
@@ -31,6 +32,7 @@ class Change:
     angle: float = 0.0
     line: int | None = None
     file: str = ""
+    tip: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,7 @@ class ChangesData:
         displacement: how far apart the tips come; None where the two do not have the same coordinates, or no
             common tip.
         file: b's file, to which the changes' lines belong.
+        fail_on: what of the notes is to fail: names of `pinscrew.changes.gates.GATES`.
     """
 
     a: str
@@ -83,6 +86,7 @@ class ChangesData:
     notes: tuple[Change, ...]
     displacement: Displacement | None
     file: str = ""
+    fail_on: frozenset[str] = frozenset()
 
     @property
     def same(self) -> bool:

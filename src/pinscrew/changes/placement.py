@@ -71,7 +71,8 @@ class _Told:
             return Placement(changes=(change,))
         if not added and joint.child in self._tips[0] and joint.child not in self._b.links:
             return Placement(changes=(self._change("tip-removed", f"{words}: a tip frame is gone"),))
-        return Placement(notes=(self._change(f"frame-{word}", f"{words}; the motion is the same"),))
+        note = self._change(f"frame-{word}", f"{words}; the motion is the same")
+        return Placement(notes=(replace(note, tip=added and joint.child in self._tips[1]),))
 
     def both(self, joint: Joint, now: Joint) -> Placement:
         """A joint that both robots have."""

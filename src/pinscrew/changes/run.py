@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from typing import Final
 
 from pinscrew.changes.attributes import attributes, driven, opposite, renames
 from pinscrew.changes.changes import Changes
 from pinscrew.changes.distance import columns, largest
+from pinscrew.changes.gates import gates
 from pinscrew.changes.geometry import Features, Near, Poses, link_steps
 from pinscrew.changes.matching import Matching, match
 from pinscrew.changes.outcome import Change
@@ -15,10 +18,15 @@ from pinscrew.changes.walk import walk
 from pinscrew.ground.errors import InputError
 from pinscrew.robot.robot import Robot
 
-__all__ = ["diff"]
+__all__ = ["TOLERANCE", "diff"]
+
+TOLERANCE: Final = 1e-9
+"""Metres, and radians, that count as no change unless told otherwise."""
 
 
-def diff(a: Robot, b: Robot, *, length: float = 1e-9, angle: float = 1e-9) -> Changes:
+def diff(
+    a: Robot, b: Robot, *, length: float = TOLERANCE, angle: float = TOLERANCE, fail_on: Iterable[str] = ()
+) -> Changes:
     """What an edit changed: from robot ``a`` to robot ``b``.
 
     Two robots are the same if joints of one name (or, where names changed, of one place in the tree) have the same
@@ -31,9 +39,11 @@ def diff(a: Robot, b: Robot, *, length: float = 1e-9, angle: float = 1e-9) -> Ch
         b: the robot after.
         length: largest displacement of an axis or tip frame, or change of a limit, that counts as none (m).
         angle: likewise largest angle (rad).
+        fail_on: what of the notes is to fail `Changes.passes`, such as ``["names", "velocity"]``; docs/diff.md lists
+            them.
 
     Raises:
-        InputError: if a tolerance is negative or not finite.
+        InputError: if a tolerance is negative or not finite, or there is no such thing to fail on.
     """
     for name, value in (("length", length), ("angle", angle)):
         if not 0.0 <= value < math.inf:
@@ -70,7 +80,7 @@ def diff(a: Robot, b: Robot, *, length: float = 1e-9, angle: float = 1e-9) -> Ch
     places = columns(a, b, matching.joints)
     common = [(x, y) for x, y, _ in tips]
     displacement = None if places is None else largest(a, b, places, common)
-    return Changes(a.name, b.name, tuple(changes), tuple(notes), displacement, b.description.file)
+    return Changes(a.name, b.name, tuple(changes), tuple(notes), displacement, b.description.file, gates(fail_on))
 
 
 def _whole(a: Robot, b: Robot, matching: Matching) -> list[Change]:

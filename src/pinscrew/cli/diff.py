@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from pinscrew.cli import arguments
-from pinscrew.cli.reports import Wanted, report_options
+from pinscrew.cli.reports import Wanted, fail_on_option, report_options
 from pinscrew.ground.errors import PinscrewError
 
 if TYPE_CHECKING:
@@ -37,24 +37,28 @@ __all__ = ["command"]
     type=click.FloatRange(0),
     help="Largest angle that counts as none; by default 5.7e-8, which is 1e-9 rad.",
 )
+@fail_on_option
 @report_options
 def command(
     words: tuple[str, ...],
     tolerance_mm: float,
     tolerance_deg: float | None,
+    fail_on: frozenset[str] | None,
     wanted: Wanted,
 ) -> None:
     """Compare the motion of two robots: screws, limits, mimics and the poses of tip frames.
 
     Each is a robot, a lock file (.lock), or a file in a git revision. What moves neither joints nor tips is a note:
-    frames chosen anew, names, order. Exit status: 0 if the motion is the same, 1 if it changed, 2 for an error.
+    frames chosen anew, names, order; --fail-on, or fail_on in [tool.pinscrew] of pyproject.toml, lets notes fail. Exit
+    status: 0 if the motion is the same, 1 if it changed or a note fails, 2 for an error.
 
     \b
       pinscrew diff HEAD~1:arm.urdf arm.urdf
       pinscrew diff main:./arm.urdf.xacro arm.urdf.xacro --tolerance-mm 0.01
       pinscrew diff scara scara l1:=0.4
     """
-    from pinscrew.changes.run import diff
+    from pinscrew.changes import settings
+    from pinscrew.changes.run import TOLERANCE, diff
 
     named = arguments.robots(words)
     if len(named) != 2:
@@ -64,12 +68,13 @@ def command(
     except PinscrewError as error:
         wanted.write(_failed(named, error))
         raise
-    angle = {} if tolerance_deg is None else {"angle": math.radians(tolerance_deg)}
-    changes = diff(a, b, length=tolerance_mm * 1e-3, **angle)
+    to_fail = settings.fail_on(Path.cwd()) if fail_on is None else fail_on
+    angle = TOLERANCE if tolerance_deg is None else math.radians(tolerance_deg)
+    changes = diff(a, b, length=tolerance_mm * 1e-3, angle=angle, fail_on=to_fail)
     changes = replace(changes, a=_called(named[0]), b=_called(named[1]), file=_file(named[1], changes.file))
     wanted.write(changes.document())
     click.echo(changes.to_json() if wanted.as_json else str(changes))
-    if not changes.same:
+    if not changes.passes:
         sys.exit(1)
 
 

@@ -13,7 +13,7 @@ import click
 
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
-from pinscrew.cli.reports import Wanted, report_options
+from pinscrew.cli.reports import Wanted, fail_on_option, report_options
 from pinscrew.ground.errors import DescriptionError, PinscrewError
 
 if TYPE_CHECKING:
@@ -28,8 +28,16 @@ __all__ = ["command"]
 @click.option("--check", "checking", is_flag=True, help="Compare the robots with their locks; write nothing.")
 @click.option("--output", "written", metavar="FILE", help="The lock of one robot; its name ends in .urdf.lock, say.")
 @arguments.tip_option
+@fail_on_option
 @report_options
-def command(words: tuple[str, ...], checking: bool, written: str | None, tip: str | None, wanted: Wanted) -> None:
+def command(
+    words: tuple[str, ...],
+    checking: bool,
+    written: str | None,
+    tip: str | None,
+    fail_on: frozenset[str] | None,
+    wanted: Wanted,
+) -> None:
     """Write the mechanism of each ROBOT, a file, to a lock beside it: arm.urdf.lock.
 
     A lock holds names, types, home poses, screw axes, limits and mimics as text that can be read and compared line by
@@ -38,7 +46,9 @@ def command(words: tuple[str, ...], checking: bool, written: str | None, tip: st
     with their parent may be placed anew; a joint, a screw or a tip may not.
 
     The lock of a xacro file holds the arguments that were given; name the lock itself to write it anew with them.
-    Exit status: 0 if no mechanism moved, 1 if one did, 2 if a lock is missing or anything could not be read.
+    With --fail-on a lock also holds what of the notes fails its check; given to --check, it comes before that. Where
+    neither says anything, fail_on in [tool.pinscrew] of pyproject.toml does. Exit status: 0 if no mechanism moved, 1 if
+    one did or a note fails, 2 if a lock is missing or anything could not be read.
 
     \b
       pinscrew lock path/to/arm.urdf
@@ -48,17 +58,19 @@ def command(words: tuple[str, ...], checking: bool, written: str | None, tip: st
     if not checking:
         if wanted.files or wanted.github:
             raise click.UsageError("there is something to report with --check only")
-        _write(words, written, tip, wanted.as_json)
+        _write(words, written, tip, fail_on, as_json=wanted.as_json)
         return
     if written is not None or tip is not None or arguments.options()["floating_base"]:
         raise click.UsageError("--check takes output, tip and floating base from the locks")
-    _check(words, wanted)
+    _check(words, fail_on, wanted)
 
 
 # ------------------------------------------------------------------------------------------------- writing
 
 
-def _write(words: Sequence[str], written: str | None, tip: str | None, as_json: bool) -> None:
+def _write(
+    words: Sequence[str], written: str | None, tip: str | None, fail_on: frozenset[str] | None, *, as_json: bool
+) -> None:
     from pinscrew.lockfile.writing import text
 
     named = arguments.robots(words)
@@ -72,7 +84,7 @@ def _write(words: Sequence[str], written: str | None, tip: str | None, as_json: 
             path, robot = _robot(one, written, tip)
             if path in texts:
                 raise click.UsageError(f"two robots for the lock {path}; name one of them with --output")
-            texts[path] = text(robot, path)
+            texts[path] = text(robot, path, fail_on=_kept(path) if fail_on is None else fail_on)
             advance(1, one.source)
     changed = [path for path, content in texts.items() if not _holds(path, content)]
     for path in changed:
@@ -88,8 +100,9 @@ def _write(words: Sequence[str], written: str | None, tip: str | None, as_json: 
 def _robot(named: arguments.Named, written: str | None, tip: str | None) -> tuple[Path, Robot]:
     """Where a robot's lock goes, and the robot."""
     from pinscrew.lockfile.checking import reload
-    from pinscrew.lockfile.places import beside, is_lock
+    from pinscrew.lockfile.places import beside, check_source, is_lock
     from pinscrew.lockfile.reading import read_lock
+    from pinscrew.lockfile.writing import content
 
     if is_lock(named.source):
         if named.arguments or written is not None or tip is not None or named.options["floating_base"]:
@@ -106,6 +119,7 @@ def _robot(named: arguments.Named, written: str | None, tip: str | None) -> tupl
         raise DescriptionError("lock-name", what, file=written, remedy=f"call it {written}.urdf.lock, say")
     named.options = {**named.options, "tip": tip}
     robot = named.load()
+    check_source(path, content(robot, path).source, allow_outside=named.options["allow_outside"])
     _keep_arguments(path, robot)
     return path, robot
 
@@ -127,6 +141,16 @@ def _keep_arguments(path: Path, robot: Robot) -> None:
         raise DescriptionError("lock-arguments", what, file=path, remedy=remedy)
 
 
+def _kept(path: Path) -> frozenset[str] | None:
+    """What a lock that is to be written anew says of what fails."""
+    from pinscrew.lockfile.reading import read_lock
+
+    try:
+        return read_lock(path).content.fail_on
+    except DescriptionError:
+        return None
+
+
 def _holds(path: Path, content: str) -> bool:
     """Whether a file has this content already."""
     try:
@@ -138,19 +162,21 @@ def _holds(path: Path, content: str) -> bool:
 # ------------------------------------------------------------------------------------------------ checking
 
 
-def _check(words: Sequence[str], wanted: Wanted) -> None:
+def _check(words: Sequence[str], fail_on: frozenset[str] | None, wanted: Wanted) -> None:
+    from pinscrew.changes import settings
     from pinscrew.lockfile.checking import check
     from pinscrew.lockfile.document import document
     from pinscrew.reporting import to_json, to_text
 
     options = {name: value for name, value in arguments.options().items() if name != "floating_base"}
     paths = _locks(words)
+    otherwise = settings.fail_on(Path.cwd())
     checked: list[LockCheck] = []
     errors: list[tuple[Path, PinscrewError]] = []
     with progress("checking", len(paths)) as advance:
-        for path in paths:
+        for path, source in paths:
             try:
-                checked.append(check(path, **options))
+                checked.append(check(path, source=source, fail_on=fail_on, otherwise=otherwise, **options))
             except PinscrewError as error:
                 errors.append((path, error))
             advance(1, str(path))
@@ -160,23 +186,24 @@ def _check(words: Sequence[str], wanted: Wanted) -> None:
     for _, failure in errors:
         click.echo(f"pinscrew: {failure}", err=True)
     wanted.write(outcome)
-    if not all(lock.same for lock in checked):
+    if not all(lock.passes for lock in checked):
         sys.exit(1)
     if errors:
         sys.exit(2)
 
 
-def _locks(words: Sequence[str]) -> list[Path]:
-    """The locks that are named, or belong to the files that are, or else all below the current folder."""
+def _locks(words: Sequence[str]) -> list[tuple[Path, Path | None]]:
+    """The locks that are named, or belong to the files that are, with these, or else all below the current folder."""
     from pinscrew.lockfile.places import below, beside, is_lock
 
-    paths = []
+    paths: list[tuple[Path, Path | None]] = []
     for one in arguments.robots(words):
         if one.arguments:
             raise click.UsageError("--check takes the xacro arguments from the locks")
-        paths.append(Path(one.source) if is_lock(one.source) else beside(one.source))
+        file = Path(one.source)
+        paths.append((file, None) if is_lock(file) else (beside(one.source), file))
     if not words:
-        paths = list(below(Path()))
+        paths = [(path, None) for path in below(Path())]
     if not paths:
         what = "there is no .urdf.lock and no .xacro.lock here or below"
         raise DescriptionError("not-locked", what, file=os.curdir, remedy="write some with pinscrew lock FILE")

@@ -17,7 +17,7 @@ from pinscrew.ground import files
 if TYPE_CHECKING:
     from pinscrew.reporting.document import Document
 
-__all__ = ["Wanted", "report_options"]
+__all__ = ["Wanted", "fail_on_option", "report_options"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
@@ -65,6 +65,27 @@ class Wanted:
         for file, writer in ((self.junit, to_junit), (self.markdown, to_markdown), (self.sarif, to_sarif)):
             if file is not None:
                 output.write_file(file, writer(document))
+
+
+def _gates(_ctx: click.Context, _param: click.Parameter, value: str | None) -> frozenset[str] | None:
+    from pinscrew.changes.gates import gates
+    from pinscrew.ground.errors import InputError
+
+    if value is None:
+        return None
+    try:
+        return gates(name.strip() for name in value.split(",") if name.strip())
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+fail_on_option = click.option(
+    "--fail-on",
+    metavar="NOTES",
+    callback=_gates,
+    help="Let these notes fail too: names, tips, velocity, effort, limits, order, frames or all, separated by commas.",
+)
+"""What notes fail, as a set; None where it is not given."""
 
 
 def _file(name: str, what: str) -> Callable[[_F], _F]:

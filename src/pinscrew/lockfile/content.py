@@ -55,6 +55,7 @@ class LockContent:
         tip: the default tip, where one was named.
         base: the base link.
         joints: all joints in tree order.
+        fail_on: what of the notes fails its check; None where the lock does not say.
     """
 
     robot: str
@@ -64,6 +65,7 @@ class LockContent:
     arguments: Mapping[str, str] = field(default_factory=dict)
     floating_base: bool = False
     tip: str | None = None
+    fail_on: frozenset[str] | None = None
 
     @property
     def hash(self) -> str:
@@ -82,6 +84,8 @@ class LockContent:
             lines.append('  "floating_base": true,')
         if self.tip is not None:
             lines.append(f'  "tip": {_string(self.tip)},')
+        if self.fail_on is not None:
+            lines.append(f'  "fail_on": [{", ".join(map(_string, sorted(self.fail_on)))}],')
         lines.append(f'  "hash": "{self.hash}",')
         return "\n".join(("{", *lines, self._mechanism(), "}", ""))
 

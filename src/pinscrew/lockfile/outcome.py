@@ -29,3 +29,8 @@ class LockCheckData:
     def same(self) -> bool:
         """Whether the mechanism is the one that the lock holds."""
         return self.changes is None or self.changes.same
+
+    @property
+    def passes(self) -> bool:
+        """Whether the mechanism is that of the lock, and no note is one to fail on."""
+        return self.changes is None or self.changes.passes

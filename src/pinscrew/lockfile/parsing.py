@@ -11,6 +11,7 @@ from typing import Any, Final, NoReturn
 
 import numpy as np
 
+from pinscrew.changes.gates import GATES
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES, JointType, Limits, Mimic, read_only
 from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.typing import FloatArray
@@ -93,7 +94,7 @@ def parse(text: str, file: Path) -> LockContent:
         what = f"its schema is {_shown(stated)}, and not {SCHEMA!r}"
         raise DescriptionError("lock-schema", what, file=file, remedy=_REMEDY)
     keys = ("schema", "robot", "source", "hash", "base", "joints")
-    top = _At(held, "the lock", file).keys(keys, ("arguments", "floating_base", "tip"))
+    top = _At(held, "the lock", file).keys(keys, ("arguments", "floating_base", "tip", "fail_on"))
     base = top["base"].string()
     joints: dict[str, LockedJoint] = {}
     links = {base}
@@ -110,6 +111,7 @@ def parse(text: str, file: Path) -> LockContent:
         arguments=_arguments(top.get("arguments")),
         floating_base=_floating(top.get("floating_base"), joints),
         tip=_tip(top.get("tip"), links),
+        fail_on=_fail_on(top.get("fail_on")),
     )
     if top["hash"].string() != content.hash:
         what = "its hash is not that of its content, so it was edited or merged by hand"
@@ -180,6 +182,16 @@ def _tip(at: _At | None, links: set[str]) -> str | None:
     if at.string() not in links:
         at.refuse(f"is {at.value!r}, which is no link")
     return at.string()
+
+
+def _fail_on(at: _At | None) -> frozenset[str] | None:
+    if at is None:
+        return None
+    names = [item.string() for item in at.items()]
+    for name in names:
+        if name not in GATES:
+            at.refuse(f"has {name!r}, and not what can be failed on: {', '.join(GATES)}")
+    return frozenset(names)
 
 
 def _joint(at: _At, links: set[str], above: Mapping[str, LockedJoint]) -> LockedJoint:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from pinscrew.changes.gates import gates
 from pinscrew.description.model import SCALAR_TYPES, Joint
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lockfile.content import LockContent, LockedJoint
@@ -33,15 +36,19 @@ def fingerprint(robot: Robot) -> str:
     return content(robot).hash
 
 
-def text(robot: Robot, lock: str | Path | None = None) -> str:
+def text(robot: Robot, lock: str | Path | None = None, *, fail_on: Iterable[str] | None = None) -> str:
     """The text of the robot's lock file: deterministic, in UTF-8, with a newline at its end.
 
     Args:
         robot: the robot.
         lock: where the file will stand, since it names the robot's file relative to its own folder; by default
             beside that.
+        fail_on: what of the notes is to fail its check, such as ``["names"]``; by default the lock does not say.
+
+    Raises:
+        InputError: if there is no such thing to fail on.
     """
-    return content(robot, lock).text()
+    return replace(content(robot, lock), fail_on=None if fail_on is None else gates(fail_on)).text()
 
 
 def content(robot: Robot, lock: str | Path | None = None) -> LockContent:

@@ -57,4 +57,4 @@ class RobotFile(pytest.File):
         lock = self.path.with_name(f"{self.path.name}.lock")
         if lock.is_file():  # it names the robot's arguments itself, so there is one per file
             packages = {name: root for robot in robots for name, root in robot.packages.items()}
-            yield LockItem.from_parent(self, name="lock", lock=lock, packages=packages)
+            yield LockItem.from_parent(self, name="lock", lock=lock, packages=packages, fail_on=self._settings.fail_on)

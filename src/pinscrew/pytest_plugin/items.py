@@ -102,9 +102,9 @@ class CheckItem(_SubjectItem):
 class LockItem(RobotItem):
     """The file still describes the mechanism of its lock file."""
 
-    def __init__(self, *, lock: Path, packages: Mapping[str, Path], **rest: Any) -> None:
+    def __init__(self, *, lock: Path, packages: Mapping[str, Path], fail_on: tuple[str, ...], **rest: Any) -> None:
         super().__init__(**rest)
-        self._lock, self._packages = lock, packages
+        self._lock, self._packages, self._fail_on = lock, packages, fail_on
 
     def runtest(self) -> None:
         """Compare the file with its lock."""
@@ -112,14 +112,14 @@ class LockItem(RobotItem):
 
         trouble: Exception | None = None
         try:
-            checked = check(self._lock, packages=self._packages)
+            checked = check(self._lock, packages=self._packages, otherwise=self._fail_on)
         except TROUBLE as error:
             trouble = error
         if trouble is not None:  # said out of the except clause, or pytest would tell both
             self.fail_for(trouble)
-        if checked.changes is not None and not checked.same:
+        if checked.changes is not None and not checked.passes:
             lock = os.path.relpath(self._lock, self.config.invocation_params.dir)
-            changes = checked.changes.changes
+            changes = checked.changes.failing
             lines = joint_lines(self.path)
             line = next((lines[one.joint] for one in changes if one.joint in lines), None)
             words = f"{checked.changes}\nif that is meant: {shlex.join(['pinscrew', 'lock', lock])}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
@@ -12,12 +11,13 @@ from typing import Any, Final, NoReturn
 
 import pytest
 
+from pinscrew.changes.gates import GATES
+from pinscrew.changes.settings import FILE, SECTION, section
+from pinscrew.ground.errors import InputError
 from pinscrew.ground.words import brief, one_line
 
 __all__ = ["Listed", "Settings", "read"]
 
-FILE: Final = "pyproject.toml"
-SECTION: Final = "tool.pinscrew"
 SUFFIXES: Final = (".urdf", ".urdf.xacro")
 SAMPLES: Final = 100
 
@@ -51,6 +51,7 @@ class Settings:
         seed: of them.
         tolerance: largest error that is rounding; None for `pinscrew.verify`'s.
         exclude: patterns of paths, relative to the root, that are left out.
+        fail_on: what of the notes is to fail the check of a lock that does not say so itself.
         robots: those that are listed, by their resolved files.
     """
 
@@ -59,6 +60,7 @@ class Settings:
     seed: int
     tolerance: float | None
     exclude: tuple[str, ...]
+    fail_on: tuple[str, ...]
     robots: Mapping[Path, tuple[Listed, ...]]
 
     def robots_in(self, file: Path) -> tuple[Listed, ...]:
@@ -104,6 +106,7 @@ _NUMBERS: Final = {"samples": _COUNT, "seed": _COUNT, "tolerance": _TOLERANCE}
 _TABLE: Final = {
     **_NUMBERS,
     "exclude": _TEXTS,
+    "fail_on": _Kind(f"a list of {', '.join(GATES)}", _list_of(lambda one: isinstance(one, str) and one in GATES)),
     "robots": _Kind(f"a list of tables, each below [[{SECTION}.robots]]", _list_of(lambda one: isinstance(one, dict))),
 }
 _ROBOT: Final = {
@@ -138,6 +141,7 @@ def read(config: pytest.Config) -> Settings:
         seed=table.get("seed", 0),
         tolerance=table.get("tolerance"),
         exclude=tuple(table.get("exclude", ())),
+        fail_on=tuple(table.get("fail_on", ())),
         robots=_by_file([_robot(one, i, root) for i, one in enumerate(table.get("robots", ()))]),
     )
 
@@ -148,16 +152,10 @@ def _refuse(words: str) -> NoReturn:
 
 def _section(file: Path) -> Any:
     """The table of pinscrew in a pyproject.toml; empty where there is no such table or file."""
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib  # pytest needs it there too
-    if not file.is_file():
-        return {}
     try:
-        return tomllib.loads(file.read_text(encoding="utf-8")).get("tool", {}).get("pinscrew", {})
-    except (OSError, ValueError, AttributeError) as error:  # AttributeError: 'tool' is no table
-        _refuse(f"{FILE} can't be read: {error}")
+        return section(file)
+    except InputError as error:
+        _refuse(f"{FILE} {error.what}")
 
 
 def _checked(table: Any, name: str, kinds: Mapping[str, _Kind]) -> dict[str, Any]:
