@@ -13,7 +13,7 @@ SOURCE = Path(__file__).resolve().parents[1] / "src"
 
 FLOORS = (
     {"ground"},
-    {"errors", "lie", "description"},
+    {"errors", "lie", "description", "mathtext"},
     {"robot", "reporting"},
     {"engines", "engines.compiled"},
     {"witnesses"},

@@ -98,6 +98,7 @@ ERRORS: Final[dict[str, str]] = {
     "git": "A file is asked for in a git revision, and git is missing, fails, or finds no repository.",
     "git-revision": "git knows no revision of this name.",
     "git-path": "A git revision does not have this file.",
+    "formula": "A text is no formula in LaTeX that can be read without guessing, or it has no value.",
     "expression": "A text is no arithmetic of numbers, `pi`, `deg` and the variables that it may have.",
     "profile-format": "A velocity profile's file is not what its suffix says, or has other parts than it should.",
     "profile-interval": "Pieces of a velocity profile leave a gap, overlap, are empty, or end at different times.",
