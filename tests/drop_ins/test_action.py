@@ -128,7 +128,7 @@ def test_what_fails(broken: Path, job: Job) -> None:
     }
     locks = job.run("Check locks")
     assert locks.returncode == 1
-    assert "::error file=robots/arm.urdf.xacro,title=pinscrew%3A moved::" in locks.stderr
+    assert "::error file=robots/arm.urdf.xacro,line=12,title=pinscrew%3A moved::" in locks.stderr
     assert [one["ruleId"] for one in job.results("lock.sarif")].count("moved") >= 1
     headings = [line for line in job.summary.read_text().splitlines() if line.startswith("### ")]
     assert headings[-1] == "### pinscrew lock: 0 of 2 mechanisms are those of their locks"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -13,6 +12,7 @@ from pinscrew.derivation.forms import ClosedForms
 from pinscrew.ground import escaping_code
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KindLike, jacobian_kind
+from pinscrew.ground.version import __version__
 
 __all__ = ["LANGUAGES", "code"]
 
@@ -69,7 +69,7 @@ def _header(d: ClosedForms, kind: str) -> tuple[str, ...]:
     lengths = ", ".join(f"{s} = {float(value):.9g}" for s, value in d.lengths.items()) or "none"
     return (
         f"Kinematics of {d.robot.name}: frame {d.tip} in frame {d.robot.base}.",
-        f"Closed forms by pinscrew {importlib.metadata.version('pinscrew')}; lengths in m, angles in rad.",
+        f"Closed forms by pinscrew {__version__}; lengths in m, angles in rad.",
         f"q, in this order: {q}",
         f"lengths, in this order: {lengths}",
         "fk: pose T, 4 by 4: p_base = T p_tip",

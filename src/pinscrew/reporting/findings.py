@@ -13,10 +13,10 @@ Level: TypeAlias = Literal["error", "warning", "note"]
 
 RULES: Final[dict[str, str]] = {
     "disagreement": "The two engines read, place or move a joint differently, so one of them is wrong about the file.",
-    "motion-changed": "The robot moves otherwise than the one that it is compared with.",
-    "motion-kept": "The file differs from the other one in what does not change how the robot moves.",
     "moved": "The mechanism is no longer the one that the robot's lock holds.",
     "placed-anew": "The file differs from the lock in what does not change how the robot moves.",
+    "motion-changed": "The robot moves otherwise than the one that it is compared with.",
+    "motion-kept": "The file differs from the other one in what does not change how the robot moves.",
 }
 """What each rule stands for, beside the codes of errors and warnings."""
 

@@ -5,7 +5,6 @@ Source: OASIS, "Static Analysis Results Interchange Format (SARIF) Version 2.1.0
 
 from __future__ import annotations
 
-import importlib.metadata
 import json
 import os
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
 
+from pinscrew.ground.version import __version__
 from pinscrew.reporting.document import Document
 from pinscrew.reporting.findings import Finding, help_text
 from pinscrew.reporting.paths import below
@@ -34,7 +34,7 @@ def to_sarif(document: Document) -> str:
     notifications = [_notification(finding, rules) for finding in findings if not finding.file]
     driver = {
         "name": "pinscrew",
-        "version": importlib.metadata.version("pinscrew"),
+        "version": __version__,
         "rules": [{"id": rule, "shortDescription": _text(rule), "help": _text(rule)} for rule in rules],
     }
     run = {

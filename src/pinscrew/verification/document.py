@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
 from pinscrew.ground.errors import PinscrewError, PinscrewWarning
+from pinscrew.ground.version import version_of
 from pinscrew.ground.words import one_line
 from pinscrew.reporting.document import Case, Document, Line, Problem, ResultTable, Section, Strong
 from pinscrew.reporting.findings import Finding
@@ -122,7 +122,7 @@ def _data(attempts: Sequence[Attempt]) -> dict[str, Any]:
     packages += sorted({_WITNESSES[name] for report in reports for name in report.engines if name in _WITNESSES})
     return {
         "schema": SCHEMA,
-        "versions": {name: importlib.metadata.version(name) for name in packages},
+        "versions": {name: version_of(name) for name in packages},
         "ok": all(attempt.ok for attempt in attempts),
         "robots": [_report_data(report) for report in reports],
         "errors": [

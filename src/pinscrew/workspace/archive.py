@@ -8,7 +8,6 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Mapping
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final, TypeAlias
 
@@ -20,6 +19,7 @@ from pinscrew.engines.compiled import can_compile
 from pinscrew.engines.compiled.batch import Batch
 from pinscrew.ground import files
 from pinscrew.ground.errors import InputError
+from pinscrew.ground.version import version_of
 from pinscrew.lockfile.writing import fingerprint
 from pinscrew.robot.robot import Robot
 from pinscrew.workspace.axes import Axis
@@ -52,7 +52,7 @@ def provenance(robot: Robot, engine: Engine, frame: str, axes: tuple[Axis, ...])
         "ranges": {axis.name: [axis.lower, axis.upper] for axis in axes},
         "units": {axis.name: "rad" if axis.angle else "m" for axis in axes},
         "engine": engine.name,
-        "versions": {name: version(name) for name in ("pinscrew", "numpy", *engine_packages)},
+        "versions": {name: version_of(name) for name in ("pinscrew", "numpy", *engine_packages)},
     }
 
 
