@@ -211,9 +211,7 @@ def of_latex(text: str) -> list[str]:
     words = set(re.findall(r"\\([A-Za-z]+)", text))
     assert words.isdisjoint({"input", "write", "def", "catcode", "csname", "openin", "read", "immediate"})
     assert "^^" not in text
-    for mark, plain in _LATEX.items():
-        text = text.replace(mark, plain)
-    return [text]
+    return [re.sub("|".join(map(re.escape, _LATEX)), lambda mark: _LATEX[mark[0]], text)]
 
 
 _LATEX: Final = {
