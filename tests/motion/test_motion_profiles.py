@@ -11,7 +11,7 @@ import pytest
 import closed_forms as cf
 import pinscrew as ps
 from pinscrew.ground.errors import DescriptionError, InputError, PinscrewError, UnknownNameError
-from pinscrew.motion.profile_files import named
+from pinscrew.motion.bundled_profiles import named
 
 A8 = cf.AnthropomorphicRRR()
 TABLE = ps.Profile.table(["a", "b"], [0.0, 1.0, 3.0], [[0, 1], [2, 1], [6, 0]])

@@ -1,4 +1,4 @@
-"""A profile in pieces: intervals of time, each with an expression of t."""
+"""Rates in pieces: intervals of time, each with an expression of t."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from pinscrew.ground import expressions
 from pinscrew.ground.errors import DescriptionError, InputError
 from pinscrew.ground.expressions import Expression
 from pinscrew.ground.typing import FloatArray
-from pinscrew.motion.profile import Profile
+from pinscrew.motion.rates import Rates
 
 __all__ = ["Piece", "Pieces", "Place"]
 
@@ -83,8 +83,8 @@ class Piece:
             raise self.place.error("profile-interval", f"{what} t = {here}", remedy)
 
 
-class Pieces(Profile):
-    """A `Profile` in pieces; `Profile.pieces` makes one."""
+class Pieces(Rates):
+    """Rates in pieces; `Profile.pieces` makes a profile of them."""
 
     def __init__(self, rates: Mapping[str, Sequence[Piece] | Expression], source: str) -> None:
         """Take the pieces of each velocity, or one expression for all times, and check that they fit together."""
@@ -109,7 +109,7 @@ class Pieces(Profile):
         """See `Profile.pieces`."""
         return cls({name: _read(name, given, source) for name, given in rates.items()}, source)
 
-    def _rates(self, times: FloatArray) -> FloatArray:
+    def at(self, times: FloatArray) -> FloatArray:
         out = np.empty((len(times), len(self.names)))
         with np.errstate(all="ignore"):  # what is not finite is refused by the caller
             for column, pieces in enumerate(self._pieces.values()):

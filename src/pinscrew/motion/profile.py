@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from pinscrew.ground.errors import InputError, UnknownNameError
 from pinscrew.ground.typing import ArrayLike, FloatArray
+from pinscrew.motion import profile_files
+from pinscrew.motion.pieces import Pieces
+from pinscrew.motion.rates import Rates
+from pinscrew.motion.samples import Between, Samples
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Between", "Profile"]
-
-Between: TypeAlias = Literal["linear", "hold"]
-"""What a table's rates are between its rows: on the line from one to the next, or as in the row before."""
+__all__ = ["Profile"]
 
 
-class Profile(ABC):
+class Profile:
     """Rates of named velocities from a first time to a last. Call it with times (...) to get rates (..., n).
 
     Make one with `read`, `pieces` or `table`.
@@ -32,11 +31,12 @@ class Profile(ABC):
         source: where it came from, for messages.
     """
 
-    def __init__(self, names: Sequence[str], start: float, end: float, source: str) -> None:
-        self.names = tuple(names)
-        self.start = start
-        self.end = end
-        self.source = source
+    def __init__(self, rates: Rates) -> None:
+        self.names = rates.names
+        self.start = rates.start
+        self.end = rates.end
+        self.source = rates.source
+        self._rates = rates
 
     def __repr__(self) -> str:
         return f"<Profile {self.source!r}: {', '.join(self.names)}, {self.start:g} to {self.end:g} s>"
@@ -53,9 +53,7 @@ class Profile(ABC):
             DescriptionError: if the file can't be read or is no profile.
             InputError: if its suffix is none of these, or ``between`` is neither.
         """
-        from pinscrew.motion.profile_files import read
-
-        return read(Path(file), between)
+        return Profile(profile_files.read(Path(file), between))
 
     @staticmethod
     def pieces(
@@ -72,9 +70,7 @@ class Profile(ABC):
             DescriptionError: if an interval or an expression is none, pieces leave a gap or overlap, or the velocities
                 begin or end at different times.
         """
-        from pinscrew.motion.pieces import Pieces
-
-        return Pieces.of(rates, source)
+        return Profile(Pieces.of(rates, source))
 
     @staticmethod
     def table(
@@ -93,9 +89,7 @@ class Profile(ABC):
             InputError: if the shapes don't match, times don't increase, a number is not finite, or ``between`` is
                 neither.
         """
-        from pinscrew.motion.table import Table
-
-        return Table(names, t, rates, between, source)
+        return Profile(Samples(names, t, rates, between, source))
 
     def __call__(self, t: ArrayLike) -> FloatArray:
         """The rates at times ``t``, shape (...): shape (..., n), rad/s and m/s.
@@ -112,16 +106,12 @@ class Profile(ABC):
             what = f"there are no rates at t = {times[outside].flat[0]:g} s"
             remedy = f"the profile is from {self.start:g} to {self.end:g} s"
             raise InputError("profile-range", what, where=self.source, remedy=remedy)
-        rates = self._rates(times.ravel())
+        rates = self._rates.at(times.ravel())
         if not np.isfinite(rates).all():
             row, column = np.argwhere(~np.isfinite(rates))[0]
             what = f"the rate of {self.names[column]} is not finite at t = {times.flat[row]:g} s"
             raise InputError("not-finite", what, where=self.source, remedy="correct its expression")
         return rates.reshape(*times.shape, len(self.names))
-
-    @abstractmethod
-    def _rates(self, times: FloatArray) -> FloatArray:
-        """(N,) to (N, n), within the profile's times."""
 
     def columns(self, robot: Robot) -> npt.NDArray[np.intp]:
         """Which of the rates belongs to each entry of a robot's ``qd``, shape (nv,).

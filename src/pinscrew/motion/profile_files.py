@@ -9,49 +9,26 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from pinscrew.description import catalogue, markup
-from pinscrew.description.packages import is_file
-from pinscrew.ground.errors import InputError, UnknownNameError
+from pinscrew.description import markup
+from pinscrew.ground.errors import InputError
 from pinscrew.motion.pieces import Piece, Pieces, Place, expression
-from pinscrew.motion.profile import Between, Profile
-from pinscrew.motion.table import Table, check_between
-from pinscrew.robot.robot import Robot
+from pinscrew.motion.rates import Rates
+from pinscrew.motion.samples import Between, Samples, check_between
 
 if TYPE_CHECKING:
     import yaml
 
     from pinscrew.ground.expressions import Expression
 
-__all__ = ["ASSIGNMENT", "named", "read"]
+__all__ = ["SUFFIXES", "read"]
 
-ASSIGNMENT: Final = "assignment"
-"""The name of the profile that a coursework gives with its robot."""
 SUFFIXES: Final = (".yaml", ".yml", ".csv")
 MOST_YAML: Final = 1_000_000
 """Characters of a profile in YAML, which is read slowly; a CSV file may have twenty times as many."""
 
 
-def named(name: str | Path, robot: Robot, between: Between = "linear") -> Profile:
-    """The profile of this name: ``"assignment"``, which is bundled with some robots, or a file.
-
-    Raises:
-        UnknownNameError: if the robot has no bundled profile, or there is no such file.
-        DescriptionError, InputError: see `Profile.read`.
-    """
-    folder = catalogue.robots_directory() / "profiles"
-    bundled = folder / f"{robot.name}.yaml"
-    path = Path(name)
-    if name == ASSIGNMENT and is_file(bundled):
-        return read(bundled, between)
-    if name == ASSIGNMENT or not (path.suffix.lower() in SUFFIXES or is_file(path)):
-        robots = ", ".join(sorted(file.stem for file in folder.glob("*.yaml")))
-        known = (f"{ASSIGNMENT} (for {robots})", f"a file that ends in {', '.join(SUFFIXES)}")
-        raise UnknownNameError("unknown-profile", "profile", str(name), known, where=robot.name)
-    return read(path, between)
-
-
-def read(path: Path, between: Between = "linear") -> Profile:
-    """See `Profile.read`."""
+def read(path: Path, between: Between = "linear") -> Rates:
+    """The rates in a file; see `Profile.read`."""
     check_between(between)
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
@@ -131,7 +108,7 @@ def _line(node: yaml.Node) -> int:
 # ---------------------------------------------------------------------------------------------------- CSV
 
 
-def _table(text: str, source: str, between: Between) -> Table:
+def _table(text: str, source: str, between: Between) -> Samples:
     """A header ``t,joint1,joint2`` and rows of numbers."""
     rows = csv.reader(io.StringIO(text, newline=""), strict=True)
     header: list[str] = []
@@ -157,7 +134,7 @@ def _table(text: str, source: str, between: Between) -> Table:
     if len(values) < 2:
         what = f"{len(values)} rows of numbers"
         raise Place(source).error("profile-table", what, "expected a header t,joint1,… and at least two rows")
-    return Table(header[1:], [row[0] for row in values], [row[1:] for row in values], between, source)
+    return Samples(header[1:], [row[0] for row in values], [row[1:] for row in values], between, source)
 
 
 def _header(cells: list[str], place: Place) -> list[str]:

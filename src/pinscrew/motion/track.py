@@ -13,10 +13,11 @@ from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
+from pinscrew.motion.bundled_profiles import ASSIGNMENT, named
 from pinscrew.motion.integration import Rates, integrate
 from pinscrew.motion.inverse_velocity import InverseVelocity, Method, inverse_velocity
-from pinscrew.motion.profile import Between, Profile
-from pinscrew.motion.profile_files import ASSIGNMENT, named
+from pinscrew.motion.profile import Profile
+from pinscrew.motion.samples import Between
 from pinscrew.motion.schemes import Scheme
 from pinscrew.motion.trajectory import Trajectory
 from pinscrew.robot.robot import Robot

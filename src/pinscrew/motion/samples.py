@@ -1,21 +1,24 @@
-"""A profile of samples: rates at some times, and a rule for the times between."""
+"""Rates at some times, and a rule for the times between."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import get_args
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.motion.profile import Between, Profile
+from pinscrew.motion.rates import Rates
 
-__all__ = ["Table", "check_between"]
+__all__ = ["Between", "Samples", "check_between"]
+
+Between: TypeAlias = Literal["linear", "hold"]
+"""What the rates are between their times: on the line from one to the next, or as at the time before."""
 
 
-class Table(Profile):
-    """A `Profile` of samples; `Profile.table` makes one."""
+class Samples(Rates):
+    """Rates at some times; `Profile.table` makes a profile of them."""
 
     def __init__(self, names: Sequence[str], t: ArrayLike, rates: ArrayLike, between: Between, source: str) -> None:
         """See `Profile.table`."""
@@ -41,7 +44,7 @@ class Table(Profile):
         self._values = values
         self._between = between
 
-    def _rates(self, times: FloatArray) -> FloatArray:
+    def at(self, times: FloatArray) -> FloatArray:
         if self._between == "hold":
             return np.asarray(self._values[np.searchsorted(self._times, times, side="right") - 1])
         columns = [np.interp(times, self._times, column) for column in self._values.T]
