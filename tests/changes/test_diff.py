@@ -134,6 +134,51 @@ def test_tolerances() -> None:
     assert not ps.diff(a, b, length=0.9e-3, angle=1.1e-4).same
 
 
+def test_no_angle_within_its_tolerance_hides_a_tip_beyond_that_of_lengths() -> None:
+    """An axis that is turned alone leaves all tips where they are at zero, and displaces them elsewhere."""
+    turned = 'name="j2" type="revolute"><parent link="l1"/><child link="l2"/><origin xyz="0 0 0.2" rpy="0 0 0"/><axis'
+    a, b = (
+        urdfs.load(ARM),
+        edited((f'{turned} xyz="0 1 0"/>', f'{turned} xyz="{math.sin(0.015)} {math.cos(0.015)} 0"/>')),
+    )
+    changes = ps.diff(a, b, angle=0.02)
+    assert [(change.kind, change.joint, change.link) for change in changes.changes] == [("tip-moved", "", "tool")]
+    assert changes.displacement is not None
+    assert changes.changes[0].length == changes.displacement.length > 0.015
+    assert not ps.diff(a, b, length=0.015, angle=0.02).same
+    (change,) = ps.diff(a, b, length=1.0, angle=0.02).changes
+    assert change.angle > 0.02
+    assert ps.diff(a, b, length=0.1, angle=0.04).same
+
+
+def follower(kind: str, multiplier: float, offset: float, limits: tuple[float, float] = (-2.0, 2.0)) -> Robot:
+    drive = urdfs.joint("drive", "revolute", "base", "wheel", limits=limits)
+    rail = urdfs.joint("follow", kind, "base", "tool", mimic=("drive", multiplier, offset), axis="1 0 0")
+    return urdfs.load(urdfs.robot(drive, rail, links="base wheel tool"))
+
+
+def test_the_offset_of_a_slide_is_in_metres_and_that_of_a_turning_joint_in_radians() -> None:
+    """15 mm are not within 1°, nor 0.01 rad within 15 mm."""
+    slides = follower("prismatic", 0.1, 0.0), follower("prismatic", 0.1, 0.015)
+    (change,) = ps.diff(*slides, angle=math.radians(1)).changes
+    assert (change.kind, change.joint, change.length, change.angle) == ("mimic", "follow", 0.015, 0.0)
+    assert not ps.diff(*slides, length=0.0149).same
+    assert ps.diff(*slides, length=0.0151).same
+    turns = follower("revolute", 0.1, 0.0), follower("revolute", 0.1, 0.01)
+    (change,) = ps.diff(*turns, length=0.015).changes
+    assert (change.kind, change.joint, change.length, change.angle) == ("mimic", "follow", 0.0, 0.01)
+    assert ps.diff(*turns, angle=0.0101).same
+
+
+@pytest.mark.parametrize(("kind", "unit"), [("prismatic", "length"), ("revolute", "angle")])
+def test_a_multiplier_counts_by_what_it_does_within_the_limits(kind: str, unit: str) -> None:
+    """0.01 more per radian is 0.02 at the limit of 2 rad, and 0.03 where the drive turns to 3 rad."""
+    for end in (2.0, 3.0):
+        a, b = (follower(kind, multiplier, 0.0, (-end, 0.5)) for multiplier in (0.1, 0.11))
+        assert not ps.diff(a, b, **{unit: 0.0099 * end}).same
+        assert ps.diff(a, b, **{unit: 0.0101 * end}).same
+
+
 @pytest.mark.parametrize("bad", [-1.0, math.nan, math.inf])
 def test_bad_tolerances(bad: float) -> None:
     with pytest.raises(InputError, match="is no tolerance; give 0 or a positive number"):

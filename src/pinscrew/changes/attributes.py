@@ -4,36 +4,78 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 from pinscrew.changes.geometry import Near, kind
 from pinscrew.changes.matching import Step
 from pinscrew.changes.outcome import Change
 from pinscrew.changes.placement import Placement
 from pinscrew.changes.wording import degrees, interval, millimetres, number
-from pinscrew.description.model import Description, Joint, Mimic, drivers
+from pinscrew.description.model import Description, Joint, drivers
 from pinscrew.robot.robot import Robot
 
-__all__ = ["attributes", "driven", "opposite", "renames"]
+__all__ = ["Drive", "attributes", "driven", "opposite", "renames"]
 
 
-def driven(robot: Robot) -> dict[str, Mimic]:
+@dataclass(frozen=True)
+class Drive:
+    """What drives a joint: ``value = multiplier * x + offset`` of the coordinate x at the end of its mimics.
+
+    Attributes:
+        joint: the joint that has x.
+        multiplier: units of the driven joint per unit of x.
+        offset: in the driven joint's unit.
+        span: the largest |x| within the limits; half a turn, or 1 m, where there are none.
+    """
+
+    joint: str
+    multiplier: float
+    offset: float
+    span: float
+
+    @property
+    def reach(self) -> float:
+        """A bound of the driven joint's value."""
+        return abs(self.multiplier) * self.span + abs(self.offset)
+
+
+def driven(robot: Robot) -> dict[str, Drive]:
     """What drives each joint that moves, through however many mimics."""
-    found = drivers({joint.name: joint.mimic for joint in robot.description.joints})
-    return {motion.joint.name: found[motion.joint.name] for motion in robot.mechanism.motions}
+    joints = {joint.name: joint for joint in robot.description.joints}
+    laws = drivers({name: joint.mimic for name, joint in joints.items()})
+    drives = {}
+    for motion in robot.mechanism.motions:
+        law = laws[motion.joint.name]
+        drives[motion.joint.name] = Drive(law.joint, law.multiplier, law.offset, _span(joints[law.joint]))
+    return drives
 
 
-def opposite(a: Mimic | None, b: Mimic | None, near: Near) -> bool:
-    """Whether two joints are driven by opposite values."""
+def _span(joint: Joint) -> float:
+    ends = [abs(end) for end in (joint.limits.lower, joint.limits.upper) if math.isfinite(end)]
+    return max(ends) if len(ends) == 2 else 1.0 if joint.type == "prismatic" else math.pi
+
+
+def opposite(a: Drive | None, b: Drive | None, tolerance: float) -> bool:
+    """Whether two joints are driven by opposite values, to a tolerance in their unit."""
     if a is None or b is None or a.multiplier * b.multiplier >= 0.0:
         return False
-    return abs(a.multiplier + b.multiplier) <= near.angle and abs(a.offset + b.offset) <= near.angle
+    return _close((a.multiplier, a.offset), (-b.multiplier, -b.offset), max(a.span, b.span), tolerance)
+
+
+def _close(a: tuple[float, float], b: tuple[float, float], span: float, tolerance: float) -> bool:
+    """Whether two laws (multiplier, offset) of an x with ``|x| <= span`` give values within a tolerance.
+
+    ``|(m_a - m_b) x + (o_a - o_b)| <= |m_a - m_b| span + |o_a - o_b|``: the bound is in the driven joint's unit, though
+    multipliers of a slide on a turning joint are in m/rad.
+    """
+    return abs(a[0] - b[0]) * span + abs(a[1] - b[1]) <= tolerance
 
 
 def attributes(
     step: Step,
     placed: Placement,
     names: Mapping[str, str],
-    drives: tuple[Mapping[str, Mimic], Mapping[str, Mimic]],
+    drives: tuple[Mapping[str, Drive], Mapping[str, Drive]],
     near: Near,
 ) -> tuple[list[Change], list[Change]]:
     """Changes and notes about a joint that both robots have; ``names`` are b's names of joints by those in a."""
@@ -75,7 +117,7 @@ def _rehung(step: Step, joint: Joint, now: Joint, placed: list[Change]) -> Chang
 
 def _limits(step: Step, joint: Joint, now: Joint, placed: Placement, near: Near) -> Iterator[Change]:
     sliding = joint.type == "prismatic"
-    tolerance = near.length if sliding else near.angle
+    tolerance = near.of(joint)
     old, new = (joint.limits.lower, joint.limits.upper), (now.limits.lower, now.limits.upper)
     apart = [0.0 if x == y else abs(x - y) for x, y in zip(old, new, strict=True)]
     turned_round = placed.reversed and new == (-old[1], -old[0])
@@ -108,7 +150,7 @@ def _mimic(
     now: Joint,
     placed: Placement,
     names: Mapping[str, str],
-    drives: tuple[Mapping[str, Mimic], Mapping[str, Mimic]],
+    drives: tuple[Mapping[str, Drive], Mapping[str, Drive]],
     near: Near,
 ) -> Change | None:
     old, new = drives[0].get(joint.name), drives[1].get(now.name)
@@ -118,22 +160,21 @@ def _mimic(
         what = f"follows {now.mimic.joint!r}" if now.mimic else "has a coordinate of its own"
         instead = f"following {joint.mimic.joint!r}" if joint.mimic else "having a coordinate of its own"
         return _change("mimic", step, f"it {what} instead of {instead}")
-    direct = (names.get(joint.mimic.joint), joint.mimic.multiplier, joint.mimic.offset)
-    if _alike(direct, (now.mimic.joint, now.mimic.multiplier, now.mimic.offset), 0.0, near):
-        return None
-    master, sign = names.get(old.joint), -1.0 if placed.reversed else 1.0
-    before, after = (master, old.multiplier, old.offset), (new.joint, sign * new.multiplier, sign * new.offset)
-    all_in_all = _alike(before, after, placed.zero, near)
+    tolerance = near.of(now)
+    direct = (joint.mimic.multiplier, joint.mimic.offset), (now.mimic.multiplier, now.mimic.offset)
+    if names.get(joint.mimic.joint) == now.mimic.joint:
+        span = max(drives[0][joint.mimic.joint].reach, drives[1][now.mimic.joint].reach)
+        if _close(*direct, span, tolerance):
+            return None
+    sign = -1.0 if placed.reversed else 1.0
+    before, after = (old.multiplier, old.offset), (sign * new.multiplier, sign * new.offset + placed.zero)
+    same_master = names.get(old.joint) == new.joint
     told = f"{_law(joint)} to {_law(now)}"
-    if all_in_all:
+    if same_master and _close(before, after, max(old.span, new.span), tolerance):
         return _change("mimic-re-expressed", step, f"its mimic goes from {told}; the motion is the same")
     far = abs(now.mimic.offset - joint.mimic.offset)
     size = (far, 0.0) if now.type == "prismatic" else (0.0, far)
     return _change("mimic", step, f"its mimic goes from {told}", *size)
-
-
-def _alike(a: tuple[str | None, float, float], b: tuple[str, float, float], zero: float, near: Near) -> bool:
-    return a[0] == b[0] and abs(a[1] - b[1]) <= near.angle and abs(b[2] + zero - a[2]) <= near.angle
 
 
 def _law(joint: Joint) -> str:

@@ -22,10 +22,19 @@ __all__ = ["Features", "Near", "Poses", "apart", "between", "displaced", "kind",
 
 @dataclass(frozen=True)
 class Near:
-    """What counts as equal: m and rad."""
+    """What counts as equal. Metres and radians don't meet: the tolerance of a joint's value is asked of the joint.
+
+    Attributes:
+        length: m.
+        angle: rad.
+    """
 
     length: float
     angle: float
+
+    def of(self, joint: Joint) -> float:
+        """The tolerance of a joint's value, in the joint's own unit: m of a slide, else rad."""
+        return self.length if joint.type == "prismatic" else self.angle
 
 
 class Poses:
