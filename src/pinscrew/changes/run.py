@@ -17,6 +17,7 @@ from pinscrew.changes.placement import placement
 from pinscrew.changes.walk import walk
 from pinscrew.changes.wording import degrees, millimetres
 from pinscrew.ground.errors import InputError
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 
 __all__ = ["TOLERANCE", "diff"]
@@ -28,7 +29,7 @@ ROUNDING: Final = 1e-11
 
 
 def diff(
-    a: Robot, b: Robot, *, length: float = TOLERANCE, angle: float = TOLERANCE, fail_on: Iterable[str] = ()
+    a: RobotLike, b: RobotLike, *, length: float = TOLERANCE, angle: float = TOLERANCE, fail_on: Iterable[str] = ()
 ) -> Changes:
     """What an edit changed: from robot ``a`` to robot ``b``.
 
@@ -38,8 +39,8 @@ def diff(
     everything below it; only that joint is named.
 
     Args:
-        a: the robot before.
-        b: the robot after.
+        a: the robot before: a robot, or a name or path that `load` takes.
+        b: likewise the robot after.
         length: largest displacement of an axis or tip frame, or change of a limit, that counts as none (m).
         angle: likewise largest angle (rad).
         fail_on: what of the notes is to fail `Changes.passes`, such as ``["names", "velocity"]``; docs/diff.md lists
@@ -48,6 +49,7 @@ def diff(
     Raises:
         InputError: if a tolerance is negative or not finite, or there is no such thing to fail on.
     """
+    a, b = robot_of(a), robot_of(b)
     for name, value in (("length", length), ("angle", angle)):
         if not 0.0 <= value < math.inf:
             raise InputError("tolerance", f"{name} = {value} is no tolerance", remedy="give 0 or a positive number")

@@ -15,7 +15,7 @@ from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.forms import Convention
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.escaping_code import Language, identifier
-from pinscrew.robot.loading import load
+from pinscrew.robot.loading import RobotLike, load, robot_of
 from pinscrew.robot.robot import Robot
 
 __all__ = ["Naming", "derive"]
@@ -48,7 +48,7 @@ _ATOM: Final = re.compile(r"[cs]_?\d+(m\d+)*|d?theta_?\d*|x\d+")
 
 
 def derive(
-    robot: Robot,
+    robot: RobotLike,
     tip: str | None = None,
     *,
     symbols: bool | Mapping[str, float] = False,
@@ -64,7 +64,7 @@ def derive(
     angle of 1.5708 is π/2. Source of the equations: Murray, Li and Sastry, 1994, §2.3–2.4 and §3.2–3.4.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         tip: the frame; by default the robot's tip.
         symbols: name the distinct lengths that are still numbers l1, l2, …; or these lengths (m), by name.
         names: call the joints' values θ1, θ2, … (``"theta"``), those of sliding joints d3 (``"d"``), or as the
@@ -83,6 +83,7 @@ def derive(
             raise InputError("derive-option", f"{what}={option!r}", remedy=f"use one of {', '.join(get_args(known))}")
     if not 0.0 <= snap <= 0.1:
         raise InputError("derive-option", f"snap={snap}", remedy="give an angle from 0 to 0.1 rad")
+    robot = robot_of(robot)
     tip = robot.frame(tip)
     joints = reading.printed(robot, tip)
     variables = _variables(joints, names)

@@ -14,6 +14,7 @@ from pinscrew.engines.answers import Answers, Bound, JointView
 from pinscrew.engines.asking import long_way
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.manifold import quaternion_starts
 from pinscrew.robot.robot import Robot
 
@@ -67,9 +68,9 @@ class CheckedEngine(ABC):
 
     name: str
 
-    def __init__(self, robot: Robot) -> None:
-        self._robot = robot
-        self._quaternions = quaternion_starts(robot)
+    def __init__(self, robot: RobotLike) -> None:
+        self._robot = robot_of(robot)
+        self._quaternions = quaternion_starts(self._robot)
 
     def __repr__(self) -> str:
         return f"<{self.name} of {self._robot.name!r}>"

@@ -25,6 +25,7 @@ from pinscrew.engines.expansion import MAX_COORDINATES, MAX_DEPTH, Driven, Expan
 from pinscrew.engines.native import standard_error_to
 from pinscrew.ground.errors import EngineError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import UNIVERSE, Robot
 
 __all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Pinocchio"]
@@ -53,7 +54,7 @@ class Pinocchio(CheckedEngine):
 
     name = "Pinocchio"
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: RobotLike) -> None:
         """Load the robot's URDF.
 
         Raises:
@@ -61,6 +62,7 @@ class Pinocchio(CheckedEngine):
                 chain.
             EngineError: if Pinocchio refuses the file; the message carries its words.
         """
+        robot = robot_of(robot)
         super().__init__(robot)
         check_size(robot)
         self.model = _build(robot)

@@ -30,6 +30,7 @@ from pinscrew.engines._lanes import (
 )
 from pinscrew.engines.base import Answers, CheckedEngine, JointView
 from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.mechanism import JointMotion
 from pinscrew.robot.robot import Robot
 
@@ -44,8 +45,9 @@ class PoE(CheckedEngine):
 
     name = "PoE"
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: RobotLike) -> None:
         """Take the screws and home poses of ``robot``."""
+        robot = robot_of(robot)
         super().__init__(robot)
         self._factors = tuple(_Factor.of(motion) for motion in robot.mechanism.motions)
 

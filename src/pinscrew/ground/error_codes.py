@@ -119,6 +119,7 @@ ERRORS: Final[dict[str, str]] = {
     "part": "Manipulability is asked for of what is neither all rows, the translation nor the rotation.",
     "memory": "Results, or a grid or sample of a workspace, need more memory than there is.",
     # Lie groups and screws
+    "not-a-robot": "A robot is needed, or the name or path of one.",
     "not-a-rotation": "A matrix is not a rotation.",
     "not-a-pose": "A 4×4 matrix does not have the bottom row 0, 0, 0, 1.",
     "improper": "A matrix has a negative determinant: the nearest rotation would not be near.",

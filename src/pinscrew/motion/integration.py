@@ -19,6 +19,7 @@ from pinscrew.motion.profile import Profile
 from pinscrew.motion.schemes import Scheme
 from pinscrew.motion.trajectory import Drift, Trajectory
 from pinscrew.robot import manifold
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 
 __all__ = ["Rates", "integrate", "times"]
@@ -31,7 +32,7 @@ MOST_STEPS: Final = 1_000_000
 
 
 def integrate(
-    robot: Robot,
+    robot: RobotLike,
     q0: ArrayLike | None,
     qd: Rates,
     dt: float,
@@ -61,7 +62,7 @@ def integrate(
     base's origin, which the hybrid velocity has in it already.
 
     Args:
-        robot: what moves.
+        robot: what moves: a robot, or a name or path that `load` takes.
         q0: the first coordinates, shape (nq,); `Robot.neutral` for None.
         qd: the rates: a `Profile`, or a function of time.
         dt: the step δt (s).
@@ -79,6 +80,7 @@ def integrate(
         UnknownNameError, AmbiguousTipError: see `Robot.frame` and `Profile.columns`.
     """
     scheme = schemes.check(scheme)
+    robot = robot_of(robot)
     frame = robot.frame(frame)
     engine = PoE(robot) if engine is None else engine
     t = times(qd, dt, duration=duration, steps=steps, start=start, where=robot.name)

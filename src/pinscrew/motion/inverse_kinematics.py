@@ -17,7 +17,7 @@ from pinscrew.lie import se3, so3
 from pinscrew.lie._checks import read, require_bottom_row, require_finite, require_rotation
 from pinscrew.motion.descent import Descent
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike, robot_of
 
 __all__ = ["TOLERANCE", "Solution", "ik"]
 
@@ -85,7 +85,7 @@ class Solution:
 
 
 def ik(
-    robot: Robot,
+    robot: RobotLike,
     T_base_tip: ArrayLike,
     q0: ArrayLike | None = None,
     *,
@@ -106,7 +106,7 @@ def ik(
     itself; the same seed finds the same configurations.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         T_base_tip: targets, shape (..., 4, 4), m.
         q0: where to start, shape (..., nq), within the limits; its batch axes broadcast against those of the targets.
             Coordinates that do not move the frame keep its values, and angles that can turn are given nearest to it.
@@ -129,6 +129,7 @@ def ik(
             there is no such task, ``starts`` is not positive, ``seed`` negative or ``tolerance`` not positive.
         EngineError, UnsupportedError: if Pinocchio does not take the robot.
     """
+    robot = robot_of(robot)
     free = freedoms(robot, frame, limits)
     task_rows(task, free.length)
     if not 0.0 < tolerance < math.inf:

@@ -11,7 +11,7 @@ from pinscrew.engines.poe import PoE
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion.freedoms import TURN, Freedoms, Task, freedoms
 from pinscrew.motion.singularity import TOLERANCE, ScaledJacobian, Singularity
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike, robot_of
 
 __all__ = ["find_singularities"]
 
@@ -25,7 +25,7 @@ SAME: Final = 1e-6
 
 
 def find_singularities(
-    robot: Robot,
+    robot: RobotLike,
     frame: str | None = None,
     *,
     task: Task = "pose",
@@ -57,6 +57,7 @@ def find_singularities(
         InputError: see `classify_singularity`; also if a displacement has no limits, ``limits`` are reversed,
             ``starts`` is not positive or ``seed`` negative.
     """
+    robot = robot_of(robot)
     free = freedoms(robot, frame, limits, length)
     jacobian = ScaledJacobian(free, engine or PoE(robot), task, tolerance)
     x = _descend(jacobian, free.draw(seed, starts))

@@ -27,7 +27,7 @@ from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie._checks import read, require_finite
 from pinscrew.lie.screw import Screw
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike, robot_of
 
 __all__ = ["TOLERANCE", "ScaledJacobian", "Singularity", "classify_singularity"]
 
@@ -115,7 +115,7 @@ class Singularity:
 
 
 def classify_singularity(
-    robot: Robot,
+    robot: RobotLike,
     q: ArrayLike,
     frame: str | None = None,
     *,
@@ -127,7 +127,7 @@ def classify_singularity(
     """Whether ``frame`` is singular at ``q``, and what it has lost there.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         q: the configuration, shape (nq,), rad and m.
         frame: a link's name; by default the robot's tip.
         task: what counts, the motion of its ``"pose"`` or of its ``"position"``. An arm whose joint axes stay
@@ -141,6 +141,7 @@ def classify_singularity(
         InputError: if ``q`` has another shape or is not finite, no joint moves the frame or a planar or floating one
             does, there is no such task, or ``tolerance`` or ``length`` is not positive.
     """
+    robot = robot_of(robot)
     free = freedoms(robot, frame, length=length)
     values = read(q, (robot.nq,), "classify_singularity", "q")
     if values.ndim != 1:

@@ -20,7 +20,7 @@ from pinscrew.motion.profile import Profile
 from pinscrew.motion.samples import Between
 from pinscrew.motion.schemes import Scheme
 from pinscrew.motion.trajectory import Trajectory
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike, robot_of
 
 __all__ = ["STAGES", "Track", "track"]
 
@@ -70,7 +70,7 @@ class Track:
 
 
 def track(
-    robot: Robot,
+    robot: RobotLike,
     profile: Rates | str | Path = ASSIGNMENT,
     dt: float = 0.01,
     scheme: Scheme = "exponential",
@@ -88,7 +88,7 @@ def track(
     At each time, ξ = Jʰ(θ) θ̇ and θ̇ = (JᵀJ)⁻¹ Jᵀ ξ again, with θ integrated from the given rates.
 
     Args:
-        robot: what moves.
+        robot: what moves: a robot, or a name or path that `load` takes.
         profile: the given rates: ``"assignment"``, which some bundled robots have, a file, a `Profile`, or a function
             of the time (s).
         dt: the step (s).
@@ -106,6 +106,7 @@ def track(
         DescriptionError: if a profile's file can't be used.
         InputError: see `integrate`, and `inverse_velocity` for ``normal`` where the Jacobian loses rank.
     """
+    robot = robot_of(robot)
     rates = named(profile, robot, between) if isinstance(profile, (str, Path)) else profile
     source = rates.source if isinstance(rates, Profile) else getattr(rates, "__name__", "a function")
     engine = PoE(robot) if engine is None else engine

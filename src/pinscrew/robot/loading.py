@@ -5,13 +5,32 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TypeAlias
 
 from pinscrew.description import catalogue, expand, markup, urdf
 from pinscrew.description.packages import Packages
-from pinscrew.ground.errors import DescriptionError, PinscrewWarning
+from pinscrew.ground.errors import DescriptionError, InputError, PinscrewWarning
 from pinscrew.robot.robot import Robot
 
-__all__ = ["load"]
+__all__ = ["RobotLike", "load", "robot_of"]
+
+RobotLike: TypeAlias = Robot | str | Path
+"""A robot, or what `load` makes one of: a name or the path of a file."""
+
+
+def robot_of(robot: RobotLike) -> Robot:
+    """The robot itself, or the one that a name or a path stands for, as `load` without options has it.
+
+    Raises:
+        InputError: if it is neither.
+        UnknownNameError, DescriptionError: see `load`.
+    """
+    if isinstance(robot, Robot):
+        return robot
+    if isinstance(robot, (str, Path)):
+        return load(robot)
+    what = f"a robot is needed, not {type(robot).__name__}"
+    raise InputError("not-a-robot", what, remedy="give what ps.load returns, or a name or path that it takes")
 
 
 def load(

@@ -12,6 +12,7 @@ from pinscrew.engines.base import Engine
 from pinscrew.engines.pair import pair_of
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import InputError
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.verification import comparison, compiled, diagnosis, differences, structure
 from pinscrew.verification.configurations import Configurations, configurations
@@ -30,7 +31,7 @@ _STRUCTURE, _HOME, _SCREWS = "structure", "home poses", "screw axes"
 
 
 def verify(
-    robot: Robot,
+    robot: RobotLike,
     samples: int = 1000,
     seed: int = 0,
     *,
@@ -46,7 +47,7 @@ def verify(
     max(1, size of the robot); NaN is a failure.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         samples: random configurations within the limits; a quarter as many are taken far outside.
         seed: of the random configurations.
         tolerance: largest scaled error that is rounding.
@@ -62,6 +63,7 @@ def verify(
     samples, seed = whole("samples", samples, 0), whole("seed", seed, 0)
     if not 0.0 < tolerance < math.inf:
         raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a positive number, such as 1e-12")
+    robot = robot_of(robot)
     names = tuple(robot.frame(frame) for frame in (robot.frame_names if frames is None else frames))
     if not names:
         raise InputError("frames", "there are no frames to compare", remedy="leave frames out to compare all")

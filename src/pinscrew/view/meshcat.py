@@ -19,7 +19,7 @@ import numpy as np
 from pinscrew.ground import files
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, KindLike
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.view import html, png
 from pinscrew.view.document import DEFAULT_DRAW, Animation, State, document
 from pinscrew.view.model import Model
@@ -207,7 +207,7 @@ def _of(owner: weakref.ref[View]) -> View:
 
 
 def show(
-    robot: Robot,
+    robot: RobotLike,
     q: ArrayLike | None = None,
     qd: ArrayLike | None = None,
     *,
@@ -222,7 +222,7 @@ def show(
     """Show a robot in the browser.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         q: configuration, shape (nq,), rad and m; by default zero.
         qd: velocities, shape (nv,), rad/s and m/s; by default 1 rad/s, and a quarter of the robot's size per second.
         tip: the frame whose velocity is shown; by default the robot's tip, or the leaf below most joints.
@@ -240,6 +240,7 @@ def show(
         UnknownNameError: if there is no frame ``tip``.
         ViewError: if the server does not start.
     """
+    robot = robot_of(robot)
     model = prepare(robot, tip=tip, packages=packages, allow_outside=allow_outside)
     view = View(model, begin(model, q, qd, kind=kind, draw=draw), port)
     if open_browser:

@@ -9,7 +9,7 @@ from pinscrew.ground.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from pinscrew.engines.base import Engine
-    from pinscrew.robot.robot import Robot
+    from pinscrew.robot.loading import RobotLike
 
 __all__ = ["WITNESSES", "require", "witness"]
 
@@ -20,21 +20,24 @@ WITNESSES: Final = {
 """The module and class of each witness; none is needed, and each is an extra."""
 
 
-def witness(name: str, robot: Robot) -> Engine:
+def witness(name: str, robot: RobotLike) -> Engine:
     """Another library's kinematics of a robot, from the library's own reading of the file.
 
     Compare it with ours by ``verify(robot, engines=(PoE(robot), witness("mujoco", robot)))``.
 
     Args:
         name: ``"mujoco"`` or ``"roboticstoolbox"``.
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
 
     Raises:
         UnknownNameError: if there is no such witness.
         MissingExtraError: if its package is not installed.
         EngineError, UnsupportedError: if it does not take the robot.
     """
+    from pinscrew.robot.loading import robot_of  # the command line asks for the names alone, and is quick
+
     require(name)
+    robot = robot_of(robot)
     module, attribute = WITNESSES[name]
     engine: Engine = getattr(importlib.import_module(module), attribute)(robot)
     return engine

@@ -20,7 +20,7 @@ from pinscrew.engines.compiled.batch import for_many
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import EngineError, InputError
 from pinscrew.ground.processes import job_count, process_pool
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import Ranges, axes
 from pinscrew.workspace.blocks import BLOCK, Task, block_count, run_pickled
@@ -45,7 +45,7 @@ PART_WRITING: Final = 0.05
 
 
 def reachability(
-    robot: Robot,
+    robot: RobotLike,
     *,
     voxel: float = 0.05,
     samples: float = SAMPLES,
@@ -66,7 +66,7 @@ def reachability(
     same bits whoever computes it and however often it was interrupted.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         voxel: edge of a voxel, m; voxel (i, j, k) is [i a, (i + 1) a) × … in the base frame.
         samples: how many configurations.
         seed: of the random configurations.
@@ -86,6 +86,7 @@ def reachability(
         EngineError: if a worker ends.
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
     """
+    robot = robot_of(robot)
     frame = robot.frame(frame)
     samples, seed, jobs = whole("samples", samples, 1), whole("seed", seed, 0), job_count(jobs)
     if samples > MOST:

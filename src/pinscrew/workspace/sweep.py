@@ -16,6 +16,7 @@ from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.memory import free_bytes
 from pinscrew.ground.typing import FloatArray, KindLike, jacobian_kind
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import Ranges, Steps, axes, grid_counts, grid_points, sobol
@@ -94,7 +95,7 @@ class Sweep:
 
 
 def sweep(
-    robot: Robot,
+    robot: RobotLike,
     *,
     grid: Steps | None = None,
     samples: float | None = None,
@@ -109,7 +110,7 @@ def sweep(
     Without ``grid`` and ``samples``, one or two angles get a grid of 5°, anything else `SAMPLES` samples.
 
     Args:
-        robot: the robot.
+        robot: a robot, or a name or path that `load` takes.
         grid: the step for all angles (rad), or steps by coordinate (rad or m). Both ends of a range are in the
             grid, and a step that does not divide the range is shortened to one that does. The last coordinate
             varies fastest.
@@ -127,6 +128,7 @@ def sweep(
         UnknownNameError, AmbiguousTipError: see `Robot.frame`; also for a coordinate that does not exist.
         MissingExtraError: if scipy is not installed, and samples are asked for.
     """
+    robot = robot_of(robot)
     frame = robot.frame(frame)
     kind = None if kind is None else jacobian_kind(kind)
     found = axes(robot, frame, ranges)

@@ -22,6 +22,7 @@ from pinscrew.engines.compiled.outputs import Results, outputs, thread_count
 from pinscrew.engines.poe import PoE
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 
 if TYPE_CHECKING:
@@ -54,16 +55,17 @@ class Batch(PoE):
 
     name = "Batch"
 
-    def __init__(self, robot: Robot, *, threads: int | None = None) -> None:
+    def __init__(self, robot: RobotLike, *, threads: int | None = None) -> None:
         """Take the screws and home poses of ``robot``.
 
         Args:
-            robot: the robot.
+            robot: a robot, or a name or path that `load` takes.
             threads: how many to use; by default as many as the process may use cores.
 
         Raises:
             InputError: if ``threads`` is below 1 or more than there are cores.
         """
+        robot = robot_of(robot)
         super().__init__(robot)
         self._threads, self._asked_threads = thread_count(threads), threads
         self._kernels: dict[tuple[Any, ...], Kernel | None] = {}
