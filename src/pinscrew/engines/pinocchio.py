@@ -58,12 +58,10 @@ class Pinocchio(CheckedEngine):
         """Load the robot's URDF.
 
         Raises:
-            UnsupportedError: if the robot has more than `MAX_COORDINATES` coordinates or `MAX_DEPTH` joints in a
-                chain.
+            UnsupportedError: if it has more than `MAX_COORDINATES` coordinates or `MAX_DEPTH` joints in a chain.
             EngineError: if Pinocchio refuses the file; the message carries its words.
         """
-        robot = robot_of(robot)
-        super().__init__(robot)
+        super().__init__(robot := robot_of(robot))
         check_size(robot)
         self.model = _build(robot)
         self._threads = threading.local()

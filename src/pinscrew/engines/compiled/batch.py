@@ -22,8 +22,7 @@ from pinscrew.engines.compiled.outputs import Results, outputs, thread_count
 from pinscrew.engines.poe import PoE
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray, JacobianKind, KindLike, jacobian_kind
-from pinscrew.robot.loading import RobotLike, robot_of
-from pinscrew.robot.robot import Robot
+from pinscrew.robot.loading import RobotLike
 
 if TYPE_CHECKING:
     from pinscrew.engines.compiled.kernel import Kernel
@@ -65,11 +64,10 @@ class Batch(PoE):
         Raises:
             InputError: if ``threads`` is below 1 or more than there are cores.
         """
-        robot = robot_of(robot)
         super().__init__(robot)
         self._threads, self._asked_threads = thread_count(threads), threads
         self._kernels: dict[tuple[Any, ...], Kernel | None] = {}
-        self._largest = max((abs(motion.multiplier) for motion in robot.mechanism.motions), default=1.0)
+        self._largest = max((abs(motion.multiplier) for motion in self._robot.mechanism.motions), default=1.0)
         if not can_compile():
             say_slow()
 
@@ -297,6 +295,6 @@ class Batch(PoE):
         return measure if moving else np.zeros(len(J))
 
 
-def for_many(robot: Robot, threads: int | None = None) -> PoE:
+def for_many(robot: RobotLike, threads: int | None = None) -> PoE:
     """The fastest engine for many configurations: `Batch`, or `PoE` where nothing can be compiled."""
     return Batch(robot, threads=threads) if can_compile() else PoE(robot)
