@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -177,6 +178,87 @@ def test_a_multiplier_counts_by_what_it_does_within_the_limits(kind: str, unit: 
         a, b = (follower(kind, multiplier, 0.0, (-end, 0.5)) for multiplier in (0.1, 0.11))
         assert not ps.diff(a, b, **{unit: 0.0099 * end}).same
         assert ps.diff(a, b, **{unit: 0.0101 * end}).same
+
+
+# ------------------------------------------------------------------------------ what is told, and how precisely
+
+
+def told_numbers(words: str) -> list[str]:
+    """The two things that a sentence tells apart, such as limits ``from A to B`` or a rate ``B instead of A``."""
+    found = re.search(r"from (.*) to (.*)$", words) or re.search(r"is (\S+) instead of (\S+)$", words)
+    assert found is not None, words
+    return list(found.groups())
+
+
+@pytest.mark.parametrize(("kind", "unit", "scale"), [("revolute", "°", math.radians(1)), ("prismatic", " mm", 1e-3)])
+@pytest.mark.parametrize("far", [3.0, 1e-3, 1e-5])
+def test_numbers_that_differ_read_differently(kind: str, unit: str, scale: float, far: float) -> None:
+    """Limits of ±150 that become ±(150 + δ); a joint's own tolerance is below δ."""
+
+    def robot(end: float) -> Robot:
+        ends = (-150.0 * scale, end * scale)
+        return urdfs.load(urdfs.robot(urdfs.joint("j", kind, "base", "tool", limits=ends), links="base tool"))
+
+    (change,) = ps.diff(robot(150.0), robot(150.0 + far)).changes
+    before, after = told_numbers(change.words)
+    assert before in (f"[-150{unit}, 150{unit}]", f"[-150, 150]{unit}")
+    lower, upper = (float(end) for end in re.findall(r"-?[\d.]+", after))
+    assert (lower, upper) == (-150.0, pytest.approx(150.0 + far, rel=far / 1000))
+    assert "widened" in change.words
+    assert max(change.length, change.angle) == pytest.approx(far * scale, rel=1e-6)
+
+
+def test_an_end_within_the_tolerance_is_not_told() -> None:
+    """One limit differs by the last bit, the other one by 1 mm: the last bit is not there, not even as digits."""
+    b = edited(('lower="0.0" upper="0.5"', 'lower="1e-12" upper="0.501"'))
+    assert said(b) == ["joint 'slide': its limits are widened from [0, 500] mm to [0, 501] mm"]
+    assert said(edited(('lower="0.0" upper="0.5"', 'lower="1e-12" upper="0.5000000000001"'))) == []
+
+
+@pytest.mark.parametrize("attribute", ["velocity", "effort"])
+def test_rates_that_differ_read_differently(attribute: str) -> None:
+    joint = urdfs.joint("j", "revolute", "base", "tool")
+    a = urdfs.load(urdfs.robot(joint, links="base tool"))
+    for written, there in (("1.0000001", True), ("1.0000000000000002", False), ("1.5", True)):
+        text = joint.replace(f'{attribute}="1"', f'{attribute}="{written}"')
+        changes = ps.diff(a, urdfs.load(urdfs.robot(text, links="base tool")))
+        assert changes.same
+        assert [note.kind for note in changes.notes] == [attribute] * there
+        assert [told_numbers(note.words) for note in changes.notes] == [[written, "1"]] * there
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        ((0.5, 0.1), (0.5, 0.10000001), ["0.5 × 'drive' + 100 mm", "0.5 × 'drive' + 100.00001 mm"]),
+        ((0.5, 0.1), (0.50000001, 0.1), ["0.5 × 'drive' + 100 mm", "0.50000001 × 'drive' + 100 mm"]),
+        ((0.5, 0.1), (0.5000000000001, 0.2), ["0.5 × 'drive' + 100 mm", "0.5 × 'drive' + 200 mm"]),
+        ((0.5, 0.1), (0.6, 0.1000000000001), ["0.5 × 'drive' + 100 mm", "0.6 × 'drive' + 100 mm"]),
+    ],
+)
+def test_mimics_that_differ_read_differently(
+    before: tuple[float, float], after: tuple[float, float], told: list[str]
+) -> None:
+    (change,) = ps.diff(follower("prismatic", *before), follower("prismatic", *after)).changes
+    assert told_numbers(change.words) == told
+
+
+def test_no_distance_is_told_that_only_rounding_made() -> None:
+    """A tip that is turned about itself does not come apart, though its computed place does in the last digits."""
+    e = Edited(ARM)
+    e.move("mount", pose(R=turn("x", 0.3) @ turn("y", 1.2)))
+    changes = ps.diff(urdfs.load(ARM), urdfs.load(e.text))
+    assert changes.displacement is not None
+    assert not changes.same
+    assert "come apart" not in str(changes)
+    assert "tips are turned by" in str(changes)
+    text = edited(('xyz="0.1 0 0" rpy="0 0 0"', f'xyz="0.1000001 0 0" rpy="0 0 {math.pi / 2}"'))
+    coarse = ps.diff(urdfs.load(ARM), text, length=1e-6)
+    assert " mm" not in str(coarse)
+    assert "90°" in str(coarse)
+    assert "0.0001 mm" in str(ps.diff(urdfs.load(ARM), text))
+    limits = ps.diff(urdfs.load(ARM), edited(('upper="0.5"', 'upper="0.4"')))
+    assert "at equal coordinates the tips stand where they stood" in str(limits)
 
 
 @pytest.mark.parametrize("bad", [-1.0, math.nan, math.inf])

@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Final
 
-from pinscrew.changes.geometry import Near, kind
+from pinscrew.changes.geometry import kind
 from pinscrew.changes.matching import Step
-from pinscrew.changes.outcome import Change
+from pinscrew.changes.outcome import Change, Near
 from pinscrew.changes.placement import Placement
-from pinscrew.changes.wording import degrees, interval, millimetres, number
-from pinscrew.description.model import Description, Joint, drivers
+from pinscrew.changes.wording import degrees, intervals, millimetres, told_apart
+from pinscrew.description.model import Description, Joint, Mimic, drivers
 from pinscrew.robot.robot import Robot
 
 __all__ = ["Drive", "attributes", "driven", "opposite", "renames"]
+
+ROUNDING: Final = 1e-12
+"""What two numbers of a file differ by, for their size, that were written in other ways."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +94,7 @@ def attributes(
         changes.append(_change("type", step, words))
     elif joint.type == now.type:
         changes += _limits(step, joint, now, placed, near)
-    notes += _rates(step, joint, now)
+    notes += _rates(step, joint, now, near)
     mimic = _mimic(step, joint, now, placed, names, drives, near)
     if mimic is not None and mimic.kind == "mimic-re-expressed":
         # Axis or origin make up for the other numbers.
@@ -120,28 +124,38 @@ def _limits(step: Step, joint: Joint, now: Joint, placed: Placement, near: Near)
     tolerance = near.of(joint)
     old, new = (joint.limits.lower, joint.limits.upper), (now.limits.lower, now.limits.upper)
     apart = [0.0 if x == y else abs(x - y) for x, y in zip(old, new, strict=True)]
-    turned_round = placed.reversed and new == (-old[1], -old[0])
+    turned_round = placed.reversed and all(_equal(x, -y, tolerance) for x, y in zip(new, reversed(old), strict=True))
     if max(apart) <= tolerance or (turned_round and not placed.changes):
         return
+    new = (old[0] if apart[0] <= tolerance else new[0], old[1] if apart[1] <= tolerance else new[1])
     word = "changed"
     if new[0] <= old[0] and old[1] <= new[1]:
         word = "widened"
     elif old[0] <= new[0] and new[1] <= old[1]:
         word = "narrowed"
-    told = [interval(*ends, sliding=sliding) for ends in (old, new)]
-    words = f"its limits are {word} from {told[0]} to {told[1]}"
+    words = f"its limits are {word} from {{}} to {{}}".format(*intervals(old, new, sliding=sliding))
     if turned_round:
         words += ", as its direction is reversed"
     size = max(apart) if math.isfinite(max(apart)) else 0.0
     yield _change("limits", step, words, *((size, 0.0) if sliding else (0.0, size)))
 
 
-def _rates(step: Step, joint: Joint, now: Joint) -> Iterator[Change]:
-    """Limits that do not restrict where the joint can be."""
-    for word in ("velocity", "effort"):
-        old, new = getattr(joint.limits, word), getattr(now.limits, word)
-        if old != new:
-            yield _change(word, step, f"its limit of {word} is {number(new)} instead of {number(old)}")
+def _equal(x: float, y: float, tolerance: float) -> bool:
+    return x == y or abs(x - y) <= tolerance
+
+
+def _rates(step: Step, joint: Joint, now: Joint, near: Near) -> Iterator[Change]:
+    """Limits that do not restrict where the joint can be; those of efforts, which have no tolerance, to rounding."""
+    limits = joint.limits, now.limits
+    if not _equal(limits[0].velocity, limits[1].velocity, near.of(joint)):  # in a second
+        yield _rate("velocity", step, limits[0].velocity, limits[1].velocity)
+    if not math.isclose(limits[0].effort, limits[1].effort, rel_tol=ROUNDING):
+        yield _rate("effort", step, limits[0].effort, limits[1].effort)
+
+
+def _rate(word: str, step: Step, old: float, new: float) -> Change:
+    before, after = told_apart(old, new)
+    return _change(word, step, f"its limit of {word} is {after} instead of {before}")
 
 
 def _mimic(
@@ -169,7 +183,7 @@ def _mimic(
     sign = -1.0 if placed.reversed else 1.0
     before, after = (old.multiplier, old.offset), (sign * new.multiplier, sign * new.offset + placed.zero)
     same_master = names.get(old.joint) == new.joint
-    told = f"{_law(joint)} to {_law(now)}"
+    told = "{} to {}".format(*_laws(joint, now, max(old.span, new.span), tolerance))
     if same_master and _close(before, after, max(old.span, new.span), tolerance):
         return _change("mimic-re-expressed", step, f"its mimic goes from {told}; the motion is the same")
     far = abs(now.mimic.offset - joint.mimic.offset)
@@ -177,12 +191,20 @@ def _mimic(
     return _change("mimic", step, f"its mimic goes from {told}", *size)
 
 
-def _law(joint: Joint) -> str:
-    """What a mimic joint does, such as ``2 × 'drive' + 5°``."""
-    if joint.mimic is None:
-        return ""
-    offset = millimetres(joint.mimic.offset) if joint.type == "prismatic" else degrees(joint.mimic.offset)
-    return f"{number(joint.mimic.multiplier)} × {joint.mimic.joint!r}{f' + {offset}' * bool(joint.mimic.offset)}"
+def _laws(joint: Joint, now: Joint, span: float, tolerance: float) -> tuple[str, ...]:
+    """What a mimic joint did and does, such as ``2 × 'drive' + 5°``; what differs within the tolerance is not told."""
+    old, new = joint.mimic or Mimic("", 0.0, 0.0), now.mimic or Mimic("", 0.0, 0.0)
+    multipliers, offsets = (old.multiplier, new.multiplier), (old.offset, new.offset)
+    if abs(multipliers[0] - multipliers[1]) * span <= tolerance:
+        multipliers = (multipliers[0],) * 2
+    if abs(offsets[0] - offsets[1]) <= tolerance:
+        offsets = (offsets[0],) * 2
+    units = [millimetres if j.type == "prismatic" else degrees for j in (joint, now)]
+    shown = told_apart(*offsets, units[0]) if joint.type == now.type else tuple(map(lambda u, x: u(x), units, offsets))
+    return tuple(
+        f"{factor} × {mimic.joint!r}{f' + {offset}' * bool(value)}"
+        for factor, mimic, offset, value in zip(told_apart(*multipliers), (old, new), shown, offsets, strict=True)
+    )
 
 
 def renames(step: Step, a: Description, b: Description) -> tuple[list[Change], list[Change]]:

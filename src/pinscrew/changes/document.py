@@ -28,8 +28,6 @@ __all__ = [
 
 SCHEMA: Final = "pinscrew.diff/1"
 TASK: Final = "pinscrew diff"
-ROUNDING: Final = 1e-11
-"""A displacement (m or rad) of tips that is told as none: what is left of the 12 digits in a lock, say."""
 
 
 def document(changes: ChangesData) -> Document:
@@ -150,12 +148,12 @@ def _apart(changes: ChangesData) -> list[str]:
         return []
     if apart is None:
         return ["the two do not have the same coordinates and tips, so displacements can't be given"]
-    if apart.length <= ROUNDING and apart.angle <= ROUNDING:
-        return ["at equal coordinates the tips stand where they stood"]
-    told = [f"tips come apart by {millimetres(apart.length)} at most: {_place(apart.length_at)}"]
-    if apart.angle > ROUNDING:
+    told = []
+    if apart.length > changes.near.length:
+        told.append(f"tips come apart by {millimetres(apart.length)} at most: {_place(apart.length_at)}")
+    if apart.angle > changes.near.angle:
         told.append(f"tips are turned by {degrees(apart.angle)} at most: {_place(apart.angle_at)}")
-    return told
+    return told or ["at equal coordinates the tips stand where they stood"]
 
 
 def _place(place: TipPlace) -> str:

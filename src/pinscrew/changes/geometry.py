@@ -7,34 +7,17 @@ compared as what they are, and a joint below would show them too.
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pinscrew.changes.matching import Matching, Step
+from pinscrew.changes.outcome import Near
 from pinscrew.description.model import Description, Joint
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
 
-__all__ = ["Features", "Near", "Poses", "apart", "between", "displaced", "kind", "link_steps", "motion_of", "turned"]
-
-
-@dataclass(frozen=True)
-class Near:
-    """What counts as equal. Metres and radians don't meet: the tolerance of a joint's value is asked of the joint.
-
-    Attributes:
-        length: m.
-        angle: rad.
-    """
-
-    length: float
-    angle: float
-
-    def of(self, joint: Joint) -> float:
-        """The tolerance of a joint's value, in the joint's own unit: m of a slide, else rad."""
-        return self.length if joint.type == "prismatic" else self.angle
+__all__ = ["Features", "Poses", "apart", "between", "displaced", "kind", "link_steps", "motion_of", "turned"]
 
 
 class Poses:

@@ -5,7 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["Change", "ChangesData", "Displacement", "TipPlace"]
+from pinscrew.description.model import Joint
+
+__all__ = ["Change", "ChangesData", "Displacement", "Near", "TipPlace"]
+
+
+@dataclass(frozen=True)
+class Near:
+    """What counts as equal. Metres and radians don't meet: the tolerance of a joint's value is asked of the joint.
+
+    Attributes:
+        length: m.
+        angle: rad.
+    """
+
+    length: float
+    angle: float
+
+    def of(self, joint: Joint) -> float:
+        """The tolerance of a joint's value, in the joint's own unit: m of a slide, else rad."""
+        return self.length if joint.type == "prismatic" else self.angle
 
 
 @dataclass(frozen=True)
@@ -78,6 +97,7 @@ class ChangesData:
             common tip.
         file: b's file, to which the changes' lines belong.
         fail_on: what of the notes is to fail: names of `pinscrew.changes.gates.GATES`.
+        near: within what tips stand where they stood: the tolerance, or where that is less what rounding does.
     """
 
     a: str
@@ -87,6 +107,7 @@ class ChangesData:
     displacement: Displacement | None
     file: str = ""
     fail_on: frozenset[str] = frozenset()
+    near: Near = Near(0.0, 0.0)
 
     @property
     def same(self) -> bool:

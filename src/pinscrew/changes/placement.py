@@ -9,9 +9,9 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from pinscrew.changes.geometry import Near, Poses, apart, between, displaced, kind, motion_of
+from pinscrew.changes.geometry import Poses, apart, between, displaced, kind, motion_of
 from pinscrew.changes.matching import Step
-from pinscrew.changes.outcome import Change
+from pinscrew.changes.outcome import Change, Near
 from pinscrew.changes.walk import Met
 from pinscrew.changes.wording import degrees, millimetres, moved
 from pinscrew.description.model import Joint

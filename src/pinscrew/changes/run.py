@@ -10,9 +10,9 @@ from pinscrew.changes.attributes import attributes, driven, opposite, renames
 from pinscrew.changes.changes import Changes
 from pinscrew.changes.distance import columns, largest
 from pinscrew.changes.gates import gates
-from pinscrew.changes.geometry import Features, Near, Poses, link_steps
+from pinscrew.changes.geometry import Features, Poses, link_steps
 from pinscrew.changes.matching import Matching, match
-from pinscrew.changes.outcome import Change, Displacement
+from pinscrew.changes.outcome import Change, Displacement, Near
 from pinscrew.changes.placement import placement
 from pinscrew.changes.walk import walk
 from pinscrew.changes.wording import degrees, millimetres
@@ -85,20 +85,22 @@ def diff(
     places = columns(a, b, matching.joints)
     common = [(x, y) for x, y, _ in tips]
     displacement = None if places is None else largest(a, b, places, common)
+    computed = Near(max(length, ROUNDING * max(poses_a.size, poses_b.size)), max(angle, ROUNDING))
     if not changes and displacement is not None:
-        changes += _together(displacement, near, max(poses_a.size, poses_b.size))
-    return Changes(a.name, b.name, tuple(changes), tuple(notes), displacement, b.description.file, gates(fail_on))
+        changes += _together(displacement, computed)
+    return Changes(
+        a.name, b.name, tuple(changes), tuple(notes), displacement, b.description.file, gates(fail_on), computed
+    )
 
 
-def _together(displacement: Displacement, near: Near, size: float) -> list[Change]:
+def _together(displacement: Displacement, near: Near) -> list[Change]:
     """The change of a tip that moved by more than the tolerance although each joint keeps within it.
 
     A joint that turned by 0.015 rad, with 0.02 allowed, carries a tip 1 m away by 15 mm; many small ones add up.
     """
-    rounding = ROUNDING * size
-    if displacement.length <= max(near.length, rounding) and displacement.angle <= max(near.angle, ROUNDING):
+    if displacement.length <= near.length and displacement.angle <= near.angle:
         return []
-    far = displacement.length > max(near.length, rounding)
+    far = displacement.length > near.length
     tip = (displacement.length_at if far else displacement.angle_at).frame
     size_of = millimetres(displacement.length) if far else degrees(displacement.angle)
     words = f"tip frame {tip!r} is displaced by up to {size_of}, though no joint on its own is beyond the tolerance"

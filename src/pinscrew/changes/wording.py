@@ -3,31 +3,46 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 
 from pinscrew.ground.typing import FloatArray
 
-__all__ = ["degrees", "interval", "millimetres", "moved", "number"]
+__all__ = ["degrees", "intervals", "millimetres", "moved", "number", "told_apart"]
 
+DIGITS: Final = 6
+"""Digits of a number that stands for itself."""
+MOST_DIGITS: Final = 17
+"""Digits that tell any two doubles apart."""
 ALONG: Final = 1e-6
 """Largest other component of a unit vector that still is called x, y or z."""
 
 
-def number(value: float) -> str:
-    """A number to six digits."""
-    return f"{value + 0.0:.6g}"
+def number(value: float, digits: int = DIGITS) -> str:
+    """A number to some digits."""
+    return f"{value + 0.0:.{digits}g}"
 
 
-def millimetres(length: float) -> str:
+def millimetres(length: float, digits: int = DIGITS) -> str:
     """A length (m) in millimetres."""
-    return f"{number(length * 1e3)} mm"
+    return f"{number(length * 1e3, digits)} mm"
 
 
-def degrees(angle: float) -> str:
+def degrees(angle: float, digits: int = DIGITS) -> str:
     """An angle (rad) in degrees."""
-    return f"{number(math.degrees(angle))}°"
+    return f"{number(math.degrees(angle), digits)}°"
+
+
+def told_apart(old: float, new: float, written: Callable[[float, int], str] = number) -> tuple[str, str]:
+    """Two numbers, written with as many digits as tell them apart: six where these do, or where the two are equal."""
+    texts = written(old, DIGITS), written(new, DIGITS)
+    for digits in range(DIGITS + 1, MOST_DIGITS + 1):
+        if texts[0] != texts[1] or old == new:
+            break
+        texts = written(old, digits), written(new, digits)
+    return texts
 
 
 def moved(shift: FloatArray, turn: FloatArray, *, length: float, angle: float) -> str:
@@ -57,12 +72,16 @@ def moved(shift: FloatArray, turn: FloatArray, *, length: float, angle: float) -
     return " and ".join(parts)
 
 
-def interval(lower: float, upper: float, *, sliding: bool) -> str:
-    """Limits (rad, or m of a sliding joint), such as ``[-170°, 170°]``."""
-    ends = (lower, upper)
-    if sliding:
-        return f"[{', '.join(number(end * 1e3) for end in ends)}] mm"
-    return f"[{', '.join(degrees(end) for end in ends)}]"
+def intervals(old: tuple[float, float], new: tuple[float, float], *, sliding: bool) -> tuple[str, str]:
+    """Limits (rad, or m of a sliding joint) before and after, such as ``[-170°, 170°]``, told apart."""
+    written = _thousandths if sliding else degrees
+    lower, upper = (told_apart(*ends, written) for ends in zip(old, new, strict=True))
+    unit = " mm" if sliding else ""
+    return f"[{lower[0]}, {upper[0]}]{unit}", f"[{lower[1]}, {upper[1]}]{unit}"
+
+
+def _thousandths(length: float, digits: int) -> str:
+    return number(length * 1e3, digits)
 
 
 def _axis(direction: FloatArray) -> tuple[int, str] | None:
