@@ -300,10 +300,7 @@ def test_all_at_once(
     folder: Path,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
-    request: pytest.FixtureRequest,
 ) -> None:
-    if reader is of_markdown:
-        request.applymarker(pytest.mark.xfail(reason="reports escape Markdown in their own way", strict=False))
     monkeypatch.chdir(folder)
     monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
     words = tuple(str(tmp_path / word) if word.startswith("OUT") else word for word in words)

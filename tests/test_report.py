@@ -237,7 +237,7 @@ def test_markdown_of_several() -> None:
     headings = [line for line in text.splitlines() if line.startswith("### ")]
     assert len(headings) == 3
     assert headings[2] == r"### arm \<1\>.urdf: could not be verified"
-    assert r'arm \<1\>.urdf: there is no "such" file & folder' in text.splitlines()
+    assert r'arm \<1\>.urdf: there is no "such" file \& folder' in text.splitlines()
 
 
 def test_failures() -> None:

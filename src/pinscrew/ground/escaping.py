@@ -175,7 +175,7 @@ def sarif_message(text: str) -> str:
 
 
 _MARKDOWN: Final = re.compile(r"[\\`*_{}\[\]<>#|~&^]|:(?=//)|(?<=www)\.", re.IGNORECASE)
-_OPENING: Final = re.compile(r"([-+=:])|(\d{1,9})(?=[.)])")
+_OPENING: Final = re.compile(r"([-+=:])|(\d{1,9})(?=[.)](?:\s|$))")
 
 
 def markdown(text: str) -> str:

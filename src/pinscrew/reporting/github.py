@@ -1,12 +1,13 @@
 """Annotations of GitHub Actions: workflow commands, a line each, which GitHub shows beside the line of a file.
 
-Source: GitHub's documentation, "Workflow commands for GitHub Actions"; the escapes are those of ``@actions/core``.
+Source: GitHub's documentation, "Workflow commands for GitHub Actions".
 """
 
 from __future__ import annotations
 
 from typing import Final
 
+from pinscrew.ground.escaping import github_data, github_property
 from pinscrew.reporting.document import Document
 from pinscrew.reporting.findings import Finding, Level
 from pinscrew.reporting.paths import below
@@ -28,13 +29,5 @@ def _command(finding: Finding) -> str:
         if finding.line is not None:
             properties["line"] = str(finding.line)
     properties["title"] = f"pinscrew: {finding.rule}"
-    written = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
-    return f"::{_COMMANDS[finding.level]} {written}::{_data(finding.text)}"
-
-
-def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
-
-
-def _property(text: str) -> str:
-    return _data(text).replace(":", "%3A").replace(",", "%2C")
+    written = ",".join(f"{name}={github_property(value)}" for name, value in properties.items())
+    return f"::{_COMMANDS[finding.level]} {written}::{github_data(finding.text)}"

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from typing import Final
 from xml.etree import ElementTree as ET
 
+from pinscrew.ground.escaping import xml_characters
 from pinscrew.reporting.document import Case, Document
 
 __all__ = ["to_junit"]
-
-_NOT_XML: Final = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 has no way to write; a file's name may hold it."""
 
 
 def to_junit(document: Document) -> str:
@@ -35,5 +31,4 @@ def to_junit(document: Document) -> str:
     for count, value in totals.items():
         root.set(count, str(value))
     ET.indent(root)
-    text = '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
-    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
+    return xml_characters('<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n")

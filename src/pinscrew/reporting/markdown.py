@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from pinscrew.ground.escaping import markdown
 from pinscrew.ground.words import one_line
 from pinscrew.reporting.document import Document, Line, ResultTable, Section, Strong
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.paths import below
 
-__all__ = ["cell", "to_markdown"]
+__all__ = ["to_markdown"]
 
 
 def to_markdown(document: Document) -> str:
     """A heading for each section with its table and sentences; or the overview, and a table of the findings."""
     if document.overview:
-        return "\n".join([f"### {cell(document.overview)}", "", *_findings(document.findings)])
+        return "\n".join([f"### {_plain(document.overview)}", "", *_findings(document.findings)])
     return "\n".join(line for section in document.sections for line in _section(section))
 
 
 def _section(section: Section) -> Iterator[str]:
-    yield from (f"### {cell(section.heading)}", "")
+    yield from (f"### {_plain(section.heading)}", "")
     if section.table is not None:
         yield from (*_table(section.table), "")
     notes = [line for line in section.lines if line.role == "note" and section.notes_heading]
@@ -28,21 +29,21 @@ def _section(section: Section) -> Iterator[str]:
     if others:
         yield from (*map(_line, others), "")
     if notes:
-        yield from (section.notes_heading, "", *map(_line, notes), "")
+        yield from (_plain(section.notes_heading), "", *map(_line, notes), "")
 
 
 def _line(line: Line) -> str:
     if line.role == "paragraph":
-        return cell(line.text)
+        return _plain(line.text)
     label = f"**{line.label}**" if line.role == "fault" else line.label
-    return f"- {label}: {cell(line.text)}" if line.label else f"- {cell(line.text)}"
+    return f"- {label}: {_plain(line.text)}" if line.label else f"- {_plain(line.text)}"
 
 
 def _table(table: ResultTable) -> Iterator[str]:
-    yield f"| {' | '.join(table.columns)} |".replace("|  |", "| |")
+    yield f"| {' | '.join(map(_plain, table.columns))} |".replace("|  |", "| |")
     yield "|" + "---|" * len(table.columns)
     for row in table.rows:
-        yield f"| {' | '.join(f'**{cell(text)}**' if isinstance(text, Strong) else cell(text) for text in row)} |"
+        yield f"| {' | '.join(f'**{_plain(text)}**' if isinstance(text, Strong) else _plain(text) for text in row)} |"
 
 
 def _findings(findings: Sequence[Finding]) -> list[str]:
@@ -58,9 +59,6 @@ def _findings(findings: Sequence[Finding]) -> list[str]:
     return [*_table(ResultTable(("level", "robot", "place", "what", "rule"), tuple(rows))), ""]
 
 
-def cell(text: str) -> str:
-    """Text on one line, with what Markdown would take as markup made plain."""
-    text = one_line(text)
-    for mark in "\\`*_|<>[]":
-        text = text.replace(mark, f"\\{mark}")
-    return text
+def _plain(text: str) -> str:
+    """Text as it is read, on one line."""
+    return markdown(one_line(text))

@@ -5,13 +5,13 @@ Source: OASIS, "Static Analysis Results Interchange Format (SARIF) Version 2.1.0
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
 
+from pinscrew.ground.escaping import json_text, sarif_message
 from pinscrew.ground.version import __version__
 from pinscrew.reporting.document import Document
 from pinscrew.reporting.findings import Finding, help_text
@@ -50,11 +50,11 @@ def to_sarif(document: Document) -> str:
         "results": results,
     }
     log = {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
-    return json.dumps(log, indent=2, allow_nan=False) + "\n"
+    return json_text(log) + "\n"
 
 
 def _text(rule: str) -> dict[str, str]:
-    return {"text": help_text(rule)}
+    return {"text": sarif_message(help_text(rule))}
 
 
 def _result(finding: Finding, rules: Sequence[str]) -> dict[str, Any]:
@@ -65,7 +65,7 @@ def _result(finding: Finding, rules: Sequence[str]) -> dict[str, Any]:
         "ruleId": finding.rule,
         "ruleIndex": rules.index(finding.rule),
         "level": finding.level,
-        "message": {"text": finding.text},
+        "message": {"text": sarif_message(finding.text)},
         "locations": [{"physicalLocation": place}],
     }
 
@@ -74,7 +74,7 @@ def _notification(finding: Finding, rules: Sequence[str]) -> dict[str, Any]:
     return {
         "associatedRule": {"id": finding.rule, "index": rules.index(finding.rule)},
         "level": finding.level,
-        "message": {"text": finding.text},
+        "message": {"text": sarif_message(finding.text)},
     }
 
 
