@@ -235,7 +235,7 @@ def test_jacobian(kind: str, frame: str) -> None:
     ("values", "q"),
     [
         ("-1.0,0.5,0.1", (-1.0, 0.5, 0.1)),
-        ("45deg,pi/4,0.1", (np.pi / 4, np.pi / 4, 0.1)),
+        ("2cm,pi/4,0.1rad", (0.02, np.pi / 4, 0.1)),
         ("joint3=0.1,joint1=-pi/2", (-np.pi / 2, 0.0, 0.1)),
         (None, (0.0, 0.0, 0.0)),
     ],

@@ -17,6 +17,8 @@ from command_line import ok, refusal, refused
 from pinscrew.cli import fk
 from pinscrew.cli.arguments import Named, configuration, number, robots
 from pinscrew.description.catalogue import bundled
+from pinscrew.ground.errors import PinscrewWarning
+from pinscrew.ground.expressions import Unit
 
 PI = math.pi
 
@@ -109,13 +111,14 @@ GARBAGE = (
 
 @pytest.mark.parametrize(("text", "value"), NUMBERS.items())
 def test_number(text: str, value: float) -> None:
-    assert number(text, "-q") == pytest.approx(value, rel=1e-15, abs=0)
+    assert number(text, "-q", "rad") == pytest.approx(value, rel=1e-15, abs=0)
 
 
 @pytest.mark.parametrize("text", GARBAGE)
 def test_what_is_not_a_number(text: str) -> None:
     with pytest.raises(click.BadParameter) as caught:
-        number(text, "-q")
+        number(text, "-q", "rad", of="j1")
+    assert caught.value.message.startswith("j1: ")
     assert caught.value.message.endswith("is not a number; write such as 0.1, pi/4 or 45deg")
     assert len(caught.value.message) < 300
     assert caught.value.param_hint == "-q"
@@ -126,6 +129,69 @@ def test_what_is_not_a_number(text: str) -> None:
 @example(-1.7976931348623157e308)
 def test_every_float_is_read_as_it_is_written(value: float) -> None:
     assert number(repr(value), "-q") == value
+
+
+UNITS = {
+    "45deg": (PI / 4, "rad"),
+    "0.5rad": (0.5, "rad"),
+    "2cm": (0.02, "m"),
+    "30mm": (0.03, "m"),
+    "1.5 m": (1.5, "m"),
+    "0.1": (0.1, ""),
+    "pi/4": (PI / 4, ""),
+    "pi/2 - 10deg": (PI / 2 - math.radians(10), "rad"),
+    "1m - 2cm*3": (0.94, "m"),
+    "90deg/rad": (PI / 2, ""),
+    "2*pi*3mm": (2 * PI * 0.003, "m"),
+    "-(1cm + 5mm)/2": (-0.0075, "m"),
+}
+
+
+@pytest.mark.parametrize("text", UNITS)
+def test_units(text: str) -> None:
+    value, unit = UNITS[text]
+    for needed in ("rad", "m", ""):
+        if unit in ("", needed):
+            assert number(text, "-q", needed) == pytest.approx(value, rel=1e-15)
+            continue
+        with pytest.raises(click.BadParameter) as caught:
+            number(text, "-q", needed, of="j1")
+        name = {"rad": "an angle", "m": "a length", "": "a number"}
+        assert caught.value.message.startswith(f"j1: {text!r} is {name[unit]}, where {name[needed]} is needed; write ")
+
+
+@pytest.mark.parametrize("text", ["2cm + 1deg", "1deg - 1m", "2cm*2cm", "1deg*1mm", "1/deg", "1deg/2cm", "2/(1m)"])
+def test_units_that_do_not_fit_together(text: str) -> None:
+    with pytest.raises(click.BadParameter) as caught:
+        number(text, "-q", "m")
+    assert caught.value.message.startswith(f"in {text!r}, a")
+    assert caught.value.message.endswith("; use one unit")
+
+
+@pytest.mark.parametrize("unit", ["rad", "m"])
+def test_a_number_without_a_unit_may_have_that_of_its_option(unit: Unit) -> None:
+    for text, value in (("3", 0.003), ("3e0*1", 0.003), ("3rad", 3.0), ("3m", 3.0)):
+        if text.endswith(unit) or text[-1].isdigit():
+            assert number(text, "--tolerance", unit, plain=1e-3) == value
+
+
+def test_degrees_typed_as_radians() -> None:
+    """45 rad are 2578°; as 45° they would be within the limits."""
+    limits = (-math.radians(95), math.radians(95))
+    turns = urdfs.robot(
+        urdfs.joint("a", "revolute", "base", "b", limits=limits),
+        urdfs.joint("c", "continuous", "b", "d"),
+        urdfs.joint("e", "prismatic", "d", "f", limits=(-1.0, 1.0)),
+        links="base b d f",
+    )
+    robot = urdfs.load(turns)
+    with pytest.warns(PinscrewWarning) as warned:
+        q = configuration(robot, "90,45,7")
+    assert [w.message.code for w in warned if isinstance(w.message, PinscrewWarning)] == ["looks-like-degrees"]
+    assert "a = 90 rad is outside its limits; if degrees are meant, write 90deg" in str(warned[0].message)
+    assert q.tolist() == [90.0, 45.0, 7.0]
+    for quiet in ("90deg,0,0", "6.2,0,0", "-96,0,0", "1.5,0,0"):
+        configuration(robot, quiet)
 
 
 @given(st.text(st.sampled_from("0123456789.e+-*/() pideg"), max_size=30))

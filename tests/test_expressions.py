@@ -24,7 +24,9 @@ def test_what_is_refused(text: str) -> None:
     with pytest.raises(InputError) as caught:
         Expression.parse(text)
     assert caught.value.code == "expression"
-    assert str(caught.value).startswith(f"{text!r} is no arithmetic; use numbers, pi, deg, brackets and + - * /")
+    assert str(caught.value).startswith(
+        f"{text!r} is no arithmetic; use numbers, pi, deg, rad, m, cm, mm, brackets and + - * /"
+    )
     if text != "t":
         with pytest.raises(InputError, match="is no arithmetic of t"):
             Expression.parse(text, ("t",))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -108,7 +109,30 @@ def test_two_robots(words: list[str]) -> None:
 
 
 def test_negative_tolerance() -> None:
-    assert "x>=0" in refused("diff", "scara", "scara", "--tolerance-mm", "-1")
+    assert "'-1' is negative" in refused("diff", "scara", "scara", "--tolerance-mm", "-1")
+    assert "'1deg' is an angle" in refused("diff", "scara", "scara", "--tolerance-mm", "1deg")
+    assert "'1mm' is a length" in refused("diff", "scara", "scara", "--tolerance-deg", "1mm")
+
+
+@pytest.mark.parametrize(
+    ("option", "texts"),
+    [("--tolerance-mm", ("10", "10mm", "1cm", "0.01m")), ("--tolerance-deg", ("0.1", "0.1deg", "pi/1800 rad"))],
+)
+def test_tolerances_in_any_unit(option: str, texts: tuple[str, ...], tmp_path: Path) -> None:
+    """All the same: 9.99 mm (0.0999°) are within it, 10.01 mm (0.1001°) are not."""
+    for part, status in ((0.999, 0), (1.001, 1)):
+        moved = {"--tolerance-mm": (0.01 * part, 0.0), "--tolerance-deg": (0.0, math.radians(0.1) * part)}[option]
+        files = []
+        for name, (x, turn) in (("a", (0.0, 0.0)), ("b", moved)):
+            text = urdfs.robot(
+                urdfs.joint("slide", "prismatic", "base", "link", axis="0 0 1"),
+                urdfs.joint("mount", "fixed", "link", "tool", xyz=f"{x!r} 0 0", rpy=f"{turn!r} 0 0"),
+                links="base link tool",
+            )
+            files.append(tmp_path / f"{name}.urdf")
+            files[-1].write_text(text)
+        for text in texts:
+            assert run("diff", *map(str, files), option, text).status == status
 
 
 # ---------------------------------------------------------------------------------------------------- git

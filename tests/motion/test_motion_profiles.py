@@ -233,3 +233,32 @@ def test_bad_pieces(rates: Any, words: str) -> None:
     with pytest.raises(PinscrewError) as caught:
         ps.Profile.pieces(rates)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("rates", "wrong"),
+    [
+        ({"joint1": "10deg", "joint2": "0.1rad*t", "joint3": "2cm"}, None),
+        ({"joint1": 0.1, "joint2": "pi/4", "joint3": 0.2}, None),
+        ({"joint1": "10deg", "joint2": "2cm", "joint3": "2cm"}, ("joint2", "m/s", "rad/s")),
+        ({"joint1": "10deg", "joint2": "1deg", "joint3": "10deg*t"}, ("joint3", "rad/s", "m/s")),
+    ],
+)
+def test_rates_are_of_the_joints_units(rates: dict[str, str | float], wrong: tuple[str, str, str] | None) -> None:
+    scara = ps.load("scara")
+    assert scara.velocity_units == ("rad", "rad", "m")
+    profile = ps.Profile.pieces({**rates, "joint1": [("0 <= t <= 1", rates["joint1"])]}, "mine")
+    if wrong is None:
+        np.testing.assert_array_equal(profile.columns(scara), [0, 1, 2])
+        return
+    with pytest.raises(InputError) as caught:
+        profile.columns(scara)
+    assert caught.value.code == "unit"
+    assert f"the rate of {wrong[0]!r} is written in {wrong[1]}, but scara has it in {wrong[2]}" in str(caught.value)
+
+
+def test_pieces_of_one_velocity_have_one_unit() -> None:
+    with pytest.raises(DescriptionError) as caught:
+        ps.Profile.pieces({"joint1": [("0 <= t < 1", "10deg"), ("1 <= t <= 2", "2cm")]}, "mine")
+    assert caught.value.code == "unit"
+    ps.Profile.pieces({"joint1": [("0 <= t < 1", "10deg"), ("1 <= t <= 2", "0.3")]}, "mine")

@@ -93,7 +93,13 @@ def test_map_by_a_cluster(cluster: str, tmp_path: Path) -> None:
 
 
 REFUSED = {
-    ("--grid", "5degrees"): "'5degrees' is not a number; write such as 5deg, 0.1 or 2cm",
+    ("--grid", "5degrees"): "'5degrees' is not a number; write such as 0.1, pi/4 or 45deg",
+    ("--grid", "5cm"): "'5cm' is a length, where an angle is needed",
+    ("--grid", "joint1=5cm,joint2=5deg"): "'5cm' is a length, where an angle is needed",
+    ("--range", "joint1=0:1cm"): "joint1: '1cm' is a length, where an angle is needed",
+    ("--map", "m.npz", "--voxel", "5deg"): "'5deg' is an angle, where a length is needed",
+    ("--map", "m.npz", "--voxel", "-5cm"): "'-5cm' is negative",
+    ("--samples", "1e5cm"): "'1e5cm' is a length, where a number is needed",
     ("--grid", "joint1=5deg,joint1=3deg"): "'joint1' is given twice",
     ("--grid", "joint1=5deg,3deg"): "'3deg' is not NAME=STEP",
     ("--grid", "-5deg"): "the step of 'joint1' is -0.08726646259971647; give a positive number",

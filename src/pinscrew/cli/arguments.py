@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +14,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from pinscrew.ground import expressions
-from pinscrew.ground.errors import InputError
+from pinscrew.ground.errors import InputError, PinscrewWarning
+from pinscrew.ground.expressions import Unit
 
 if TYPE_CHECKING:
     from pinscrew.ground.typing import FloatArray
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "OUTPUT",
     "Named",
+    "amount",
     "configuration",
     "json_option",
     "number",
@@ -171,22 +175,48 @@ q_option = click.option(
     "values",
     metavar="VALUES",
     help="Joint values in rad and m, separated by commas: numbers in the order of the joints, or NAME=VALUE "
-    "pairs (the others are 0). Write 45deg, pi/4 or -2*pi/3. By default all are 0.",
+    "pairs (the others are 0). Write 45deg, pi/4, -2*pi/3, 2cm or 30mm. By default all are 0.",
 )
 
 
-def number(text: str, option: str) -> float:
-    """The value that an option gives as an expression: ``-0.5``, ``pi/4``, ``45deg`` or ``2*(pi-1)``.
+def number(text: str, option: str | None = None, unit: Unit = "", *, plain: float = 1.0, of: str = "") -> float:
+    """The value that an option gives as an expression: ``-0.5``, ``pi/4``, ``45deg``, ``2cm`` or ``2*(pi-1)``.
+
+    Args:
+        text: what was written.
+        option: whose it is; not needed in its own callback.
+        unit: what is needed.
+        plain: what a number without a unit is multiplied by, for an option whose name has a unit of its own.
+        of: whose value it is, where an option has several.
 
     Raises:
-        click.BadParameter: if it is none.
+        click.BadParameter: if it is none, or of another unit.
     """
+    about = f"{of}: " if of else ""
     try:
-        return expressions.number(text)
-    except InputError:
+        value, given = expressions.quantity(text)
+        expressions.check_unit(text, given, unit)
+    except InputError as error:
+        if error.code == "unit":
+            raise click.BadParameter(f"{about}{error}", param_hint=option) from None
         shown = text if len(text) <= expressions.LONGEST else f"{text[: expressions.LONGEST]}…"
-        what = f"{shown!r} is not a number; write such as 0.1, pi/4 or 45deg"
+        what = f"{about}{shown!r} is not a number; write such as {expressions.EXAMPLES[unit]}"
         raise click.BadParameter(what, param_hint=option) from None
+    return value if given else value * plain
+
+
+def amount(unit: Unit, *, plain: float = 1.0) -> Callable[[click.Context, click.Parameter, str | None], float | None]:
+    """The callback of an option that takes one quantity, such as ``5cm``, that is not negative."""
+
+    def read(_ctx: click.Context, _param: click.Parameter, text: str | None) -> float | None:
+        if text is None:
+            return None
+        value = number(text, unit=unit, plain=plain)
+        if value < 0.0:
+            raise click.BadParameter(f"{text.strip()!r} is negative")
+        return value
+
+    return read
 
 
 def pairs(words: Iterable[str], form: str, option: str | None = None) -> dict[str, str]:
@@ -211,8 +241,15 @@ def pairs(words: Iterable[str], form: str, option: str | None = None) -> dict[st
     return found
 
 
-def values_by_name(text: str, robot: str, names: Sequence[str], option: str) -> dict[str, float]:
+def values_by_name(text: str, robot: str, names: Sequence[str], units: Sequence[Unit], option: str) -> dict[str, float]:
     """The numbers of an option like ``-q``: one for each of the names, or NAME=VALUE pairs, whose names may be any.
+
+    Args:
+        text: what was written.
+        robot: the robot's name.
+        names: the names that there are.
+        units: what each is of.
+        option: whose they are.
 
     Raises:
         click.BadParameter: if it can't be read, or has another number of values than there are names.
@@ -225,7 +262,8 @@ def values_by_name(text: str, robot: str, names: Sequence[str], option: str) -> 
     else:
         what = f"{len(words)} values, but {robot} takes {len(names)}: {', '.join(names) or 'none'}"
         raise click.BadParameter(what, param_hint=option)
-    return {name: number(value, option) for name, value in given.items()}
+    needed = dict(zip(names, units, strict=True))
+    return {name: number(value, option, needed.get(name, ""), of=name) for name, value in given.items()}
 
 
 def configuration(robot: Robot, values: str | None) -> FloatArray:
@@ -237,4 +275,19 @@ def configuration(robot: Robot, values: str | None) -> FloatArray:
     """
     if values is None or not values.strip():
         return robot.neutral.copy()
-    return robot.configuration(values_by_name(values, robot.name, robot.coordinate_names, "-q"))
+    given = values_by_name(values, robot.name, robot.coordinate_names, robot.coordinate_units, "-q")
+    q = robot.configuration(given)
+    _warn_of_degrees(robot, q)
+    return q
+
+
+def _warn_of_degrees(robot: Robot, q: FloatArray) -> None:
+    """Say where angles look like degrees: more than a turn, outside the limits, and within them as degrees."""
+    for name, unit, value, (lower, upper) in zip(
+        robot.coordinate_names, robot.coordinate_units, q.tolist(), robot.limits.tolist(), strict=True
+    ):
+        if unit != "rad" or abs(value) <= math.tau or lower <= value <= upper:
+            continue
+        if lower <= math.radians(value) <= upper:
+            remark = f"{name} = {value:g} rad is outside its limits; if degrees are meant, write {value:g}deg"
+            warnings.warn(PinscrewWarning("looks-like-degrees", remark, file=robot.description.file), stacklevel=3)

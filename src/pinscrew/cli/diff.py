@@ -27,22 +27,26 @@ __all__ = ["command"]
 @arguments.robot_argument()
 @click.option(
     "--tolerance-mm",
-    default=1e-6,
+    "length",
+    default="1e-6",
     show_default=True,
-    type=click.FloatRange(0),
-    help="Largest displacement that counts as none.",
+    metavar="LENGTH",
+    callback=arguments.amount("m", plain=1e-3),
+    help="Largest displacement that counts as none: a number of mm, or such as 0.01mm.",
 )
 @click.option(
     "--tolerance-deg",
-    type=click.FloatRange(0),
-    help="Largest angle that counts as none; by default 5.7e-8, which is 1e-9 rad.",
+    "angle",
+    metavar="ANGLE",
+    callback=arguments.amount("rad", plain=math.pi / 180.0),
+    help="Largest angle that counts as none: a number of degrees, or such as 0.01rad; by default 1e-9rad.",
 )
 @fail_on_option
 @report_options
 def command(
     words: tuple[str, ...],
-    tolerance_mm: float,
-    tolerance_deg: float | None,
+    length: float,
+    angle: float | None,
     fail_on: frozenset[str] | None,
     wanted: Wanted,
 ) -> None:
@@ -69,8 +73,7 @@ def command(
         wanted.write(_failed(named, error))
         raise
     to_fail = settings.fail_on(Path.cwd()) if fail_on is None else fail_on
-    angle = TOLERANCE if tolerance_deg is None else math.radians(tolerance_deg)
-    changes = diff(a, b, length=tolerance_mm * 1e-3, angle=angle, fail_on=to_fail)
+    changes = diff(a, b, length=length, angle=TOLERANCE if angle is None else angle, fail_on=to_fail)
     changes = replace(changes, a=_called(named[0]), b=_called(named[1]), file=_file(named[1], changes.file))
     wanted.write(changes.document())
     click.echo(changes.to_json() if wanted.as_json else str(changes))

@@ -113,9 +113,9 @@ def _rates(model: Model, text: str | None) -> Any:
 
     if text is None:
         return None
-    names = model.robot.velocity_names
+    names, units = model.robot.velocity_names, model.robot.velocity_units
     rates = np.zeros(len(names))
-    for name, value in arguments.values_by_name(text, model.robot.name, names, "--qd").items():
+    for name, value in arguments.values_by_name(text, model.robot.name, names, units, "--qd").items():
         if name not in names:
             raise UnknownNameError("unknown-velocity", "velocity", name, names, where=model.robot.name)
         rates[names.index(name)] = value

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -11,8 +10,6 @@ import click
 
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
-from pinscrew.ground import expressions
-from pinscrew.ground.errors import InputError
 
 if TYPE_CHECKING:
     from pinscrew.robot.robot import Robot
@@ -21,37 +18,33 @@ if TYPE_CHECKING:
 
 __all__ = ["command"]
 
-_LENGTH: Final = re.compile(r"(.*[0-9.)])\s*(mm|cm|m)", re.DOTALL)
-_METRES: Final = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
+
+def _samples(_ctx: click.Context, _param: click.Parameter, value: str | None) -> float | None:
+    return None if value is None else arguments.number(value)
 
 
-def _number(text: str) -> float:
-    """A number such as 5deg, 2cm or 1e7, in rad or m."""
-    length = _LENGTH.fullmatch(text.strip())
-    try:
-        return expressions.number(length[1]) * _METRES[length[2]] if length else expressions.number(text)
-    except InputError:
-        raise click.BadParameter(f"{text[:100]!r} is not a number; write such as 5deg, 0.1 or 2cm") from None
-
-
-def _one(_ctx: click.Context, _param: click.Parameter, value: str | None) -> float | None:
-    return None if value is None else _number(value)
-
-
-def _steps(_ctx: click.Context, _param: click.Parameter, value: str | None) -> float | dict[str, float] | None:
+def _steps(_ctx: click.Context, _param: click.Parameter, value: str | None) -> float | dict[str, str] | None:
+    """One step for all angles; or the text of each coordinate's, which is read when its unit is known."""
     if value is None or "=" not in value:
-        return None if value is None else _number(value)
-    return {name: _number(text) for name, text in arguments.pairs(value.split(","), "NAME=STEP").items()}
+        return None if value is None else arguments.number(value, unit="rad")
+    return arguments.pairs(value.split(","), "NAME=STEP")
 
 
-def _ranges(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...]) -> dict[str, tuple[float, float]]:
-    found = {}
+def _ranges(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...]) -> dict[str, tuple[str, str]]:
+    """The texts of the ends of each range."""
+    texts = {}
     for name, text in arguments.pairs(values, "NAME=FROM:TO").items():
         lower, colon, upper = text.partition(":")
         if not colon:
             raise click.BadParameter(f"{text!r} is not FROM:TO")
-        found[name] = (_number(lower), _number(upper))
-    return found
+        texts[name] = (lower, upper)
+    return texts
+
+
+def _of(robot: Robot, name: str, text: str, option: str) -> float:
+    """A value of a coordinate, in its unit; a name that does not exist is told by whoever takes the value."""
+    units = dict(zip(robot.coordinate_names, robot.coordinate_units, strict=True))
+    return arguments.number(text, option, units.get(name, ""), of=name)
 
 
 _ONLY_SWEEPS: Final = {"grid": "--grid", "compare": "--compare", "npz": "--npz"}
@@ -64,7 +57,7 @@ _ONLY_MAPS: Final = {"voxel": "--voxel", "jobs": "--jobs", "scheduler": "--sched
 @click.option(
     "--grid", metavar="STEP", callback=_steps, help="A grid: the step of all angles, 5deg, or a=5deg,b=1cm by name."
 )
-@click.option("--samples", metavar="N", callback=_one, help="A sample of so many configurations, such as 1e5.")
+@click.option("--samples", metavar="N", callback=_samples, help="A sample of so many configurations, such as 1e5.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the sample.")
 @click.option(
     "--range",
@@ -90,7 +83,9 @@ _ONLY_MAPS: Final = {"voxel": "--voxel", "jobs": "--jobs", "scheduler": "--sched
     help="Compute it from this choice of frame 0 too (or from the only one there is), and draw both.",
 )
 @click.option("--map", "target", type=arguments.OUTPUT, help="Write a map of voxels instead, for many samples.")
-@click.option("--voxel", metavar="EDGE", callback=_one, help="Edge of the map's voxels. By default 5cm.")
+@click.option(
+    "--voxel", metavar="EDGE", callback=arguments.amount("m"), help="Edge of the map's voxels. By default 5cm."
+)
 @click.option("--jobs", type=click.IntRange(1), help="Processes for the map. By default as many as cores.")
 @click.option("--scheduler", metavar="ADDRESS", help="Let a dask cluster compute the map: its scheduler.")
 @click.option("--resume", is_flag=True, help="Go on with the unfinished map in the file, if there is one.")
@@ -118,6 +113,12 @@ def command(words: tuple[str, ...], target: Path | None, plot: Path | None, as_j
         figures.check(plot)
     _check_colour(options["colour"], plot, target, options["compare"])
     robot = arguments.robot(words).load()
+    if isinstance(options["grid"], dict):
+        options["grid"] = {name: _of(robot, name, text, "--grid") for name, text in options["grid"].items()}
+    options["ranges"] = {
+        name: (_of(robot, name, lower, "--range"), _of(robot, name, upper, "--range"))
+        for name, (lower, upper) in options["ranges"].items()
+    }
     if target is None:
         _sweep(robot, plot, as_json, **options)
     else:

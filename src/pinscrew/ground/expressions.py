@@ -1,4 +1,8 @@
-"""Arithmetic as people write it, such as ``pi/4``, ``45deg`` or ``0.3 - 0.1*(t - 5)``: parsed, never run as Python."""
+"""Arithmetic as people write it, such as ``pi/4``, ``45deg``, ``2cm`` or ``0.3 - 0.1*(t - 5)``.
+
+It is parsed, never run as Python, and its units are checked: angles are rad, lengths m, and a number without a unit is
+either. So ``10deg`` is no length, ``2cm + 1deg`` is nothing, and ``pi/2 + 10deg`` an angle.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +11,14 @@ import math
 import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Literal, TypeAlias
 
 from pinscrew.ground.errors import InputError
 
-__all__ = ["Expression", "number"]
+__all__ = ["Expression", "Unit", "check_unit", "number", "quantity"]
+
+Unit: TypeAlias = Literal["rad", "m", ""]
+"""What a number is of: an angle, a length, or neither."""
 
 LONGEST: Final = 100
 """Characters of an expression."""
@@ -22,22 +29,28 @@ _OPERATORS: Final[dict[type[ast.operator], Callable[[Any, Any], Any]]] = {
     ast.Mult: lambda a, b: a * b,
     ast.Div: lambda a, b: a / b,
 }
-_CONSTANTS: Final = {"pi": math.pi, "deg": math.pi / 180.0}
-_UNIT: Final = re.compile(r"(?<=[0-9.)])\s*(deg|pi)\b")
+_UNITS: Final[dict[str, Unit]] = {"rad": "rad", "deg": "rad", "m": "m", "cm": "m", "mm": "m"}
+_CONSTANTS: Final = {"pi": math.pi, "rad": 1.0, "deg": math.pi / 180.0, "m": 1.0, "cm": 1e-2, "mm": 1e-3}
+_SUFFIX: Final = re.compile(rf"(?<=[0-9.)])\s*({'|'.join(_CONSTANTS)})\b")
+_NAMES: Final[dict[Unit, str]] = {"rad": "an angle", "m": "a length", "": "a number"}
+EXAMPLES: Final[dict[Unit, str]] = {"rad": "0.1, pi/4 or 45deg", "m": "0.1, 2cm or 30mm", "": "0.1 or 1e5"}
+"""What to write, by what is needed."""
 _WRONG: Final = (SyntaxError, ValueError, ZeroDivisionError, OverflowError, RecursionError, MemoryError)
 
 
 @dataclass(frozen=True, slots=True)
 class Expression:
-    """Numbers, ``pi``, ``deg`` and variables, with ``+ - * /`` and brackets.
+    """Numbers, ``pi``, units and variables, with ``+ - * /`` and brackets.
 
     Attributes:
         text: as it was written.
         tree: its syntax.
+        unit: what its value is of; variables have no unit.
     """
 
     text: str
     tree: ast.expr
+    unit: Unit = ""
 
     @classmethod
     def parse(cls, text: str, variables: Collection[str] = ()) -> Expression:
@@ -50,16 +63,16 @@ class Expression:
         problem = InputError(
             "expression",
             f"{shown!r} is no arithmetic" + (f" of {', '.join(variables)}" if variables else ""),
-            remedy="use numbers, pi, deg, brackets and + - * /",
+            remedy="use numbers, pi, deg, rad, m, cm, mm, brackets and + - * /",
         )
         if len(text) > LONGEST:
             raise problem
         try:
-            found = cls(text, ast.parse(_UNIT.sub(r"*\1", text.strip()), mode="eval").body)
-            _check(found.tree, variables)
+            tree = ast.parse(_SUFFIX.sub(r"*\1", text.strip()), mode="eval").body
+            _check(tree, variables)
         except _WRONG:
             raise problem from None
-        return found
+        return cls(text, tree, _unit(tree, variables, text))
 
     def value(self, variables: Mapping[str, Any] | None = None) -> Any:
         """The value where the variables, numbers or arrays, have these values; arrays broadcast.
@@ -70,11 +83,11 @@ class Expression:
         return _value(self.tree, variables or {})
 
 
-def number(text: str) -> float:
-    """The value of an expression without variables, such as ``-0.5``, ``pi/4``, ``45deg`` or ``2*(pi-1)``.
+def quantity(text: str) -> tuple[float, Unit]:
+    """The value of an expression without variables, in rad or m, and what it is of.
 
     Raises:
-        InputError: if it is none, or not finite.
+        InputError: if it is none, its units do not fit together, or it is not finite.
     """
     expression = Expression.parse(text)
     try:
@@ -83,7 +96,52 @@ def number(text: str) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise InputError("expression", f"{text!r} is no finite number")
+    return value, expression.unit
+
+
+def number(text: str, unit: Unit = "") -> float:
+    """The value of an expression without variables, such as ``-0.5``, ``pi/4``, ``45deg`` or ``2*(pi-1)``.
+
+    Args:
+        text: what was written.
+        unit: what is needed; a number without a unit is rad or m then.
+
+    Raises:
+        InputError: if it is none, not finite, or of another unit.
+    """
+    value, of = quantity(text)
+    check_unit(text, of, unit)
     return value
+
+
+def check_unit(text: str, of: Unit, needed: Unit) -> None:
+    """Refuse what is of another unit than is needed; a number without a unit fits all.
+
+    Raises:
+        InputError: if the units differ.
+    """
+    if of not in ("", needed):
+        what = f"{text.strip()!r} is {_NAMES[of]}, where {_NAMES[needed]} is needed"
+        raise InputError("unit", what, remedy=f"write such as {EXAMPLES[needed]}")
+
+
+def _unit(node: ast.expr, variables: Collection[str], text: str) -> Unit:
+    """What the value of what `_check` let pass is of."""
+    if isinstance(node, ast.Name):
+        return "" if node.id in variables else _UNITS.get(node.id, "")
+    if isinstance(node, ast.UnaryOp):
+        return _unit(node.operand, variables, text)
+    if not isinstance(node, ast.BinOp):
+        return ""
+    a, b = _unit(node.left, variables, text), _unit(node.right, variables, text)
+    if isinstance(node.op, (ast.Add, ast.Sub)) and (a == b or "" in (a, b)):
+        return a or b
+    if isinstance(node.op, ast.Mult) and "" in (a, b):
+        return a or b
+    if isinstance(node.op, ast.Div) and b in ("", a):
+        return a if not b else ""
+    verb = {ast.Add: "added to", ast.Sub: "subtracted from", ast.Mult: "multiplied by"}.get(type(node.op), "divided by")
+    raise InputError("unit", f"in {text.strip()!r}, {_NAMES[a]} is {verb} {_NAMES[b]}", remedy="use one unit")
 
 
 def _check(node: ast.expr, variables: Collection[str]) -> None:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from pinscrew.ground import expressions
 from pinscrew.ground.errors import DescriptionError, InputError
-from pinscrew.ground.expressions import Expression
+from pinscrew.ground.expressions import Expression, Unit
 from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.rates import Rates
 
@@ -101,7 +101,8 @@ class Pieces(Rates):
             if (pieces[0].begin, pieces[-1].end) != (start, end):
                 what = f"goes from {pieces[0].begin:g} to {pieces[-1].end:g} s, but {first} from {start:g} to {end:g} s"
                 raise Place(source, pieces[0].place.line, name).error("profile-interval", what, "let all do the same")
-        super().__init__(tuple(rates), start, end, source)
+        units = [_unit(name, pieces, source) for name, pieces in rates.items()]
+        super().__init__(tuple(rates), start, end, source, units)
         self._pieces = rates
 
     @classmethod
@@ -151,6 +152,16 @@ def _read(name: str, given: str | float | Iterable[tuple[str, str | float]], sou
             raise place.error("profile-format", "is no pair of an interval and a rate", remedy) from None
         found.append(Piece.of(when, rate, place))
     return found
+
+
+def _unit(name: str, pieces: Sequence[Piece] | Expression, source: str) -> Unit:
+    """What the pieces of a velocity are of, per second."""
+    if isinstance(pieces, Expression):
+        return pieces.unit
+    written = {piece.rate.unit: piece for piece in pieces if piece.rate.unit}
+    if len(written) > 1:
+        raise Place(source, element=name).error("unit", "some pieces are angles and others lengths", "use one unit")
+    return next(iter(written), "")
 
 
 def _check(name: str, pieces: Sequence[Piece], source: str) -> None:

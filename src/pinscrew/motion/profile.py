@@ -118,13 +118,19 @@ class Profile:
 
         Raises:
             UnknownNameError: if a name is none of the robot's velocities.
-            InputError: if a velocity of the robot is missing.
+            InputError: if a velocity of the robot is missing, or written as an angle where it is a length
+                (``10deg`` for a slide), or the other way round.
         """
         known = robot.velocity_names
         for name in self.names:
             if name not in known:
                 where = f"{self.source}, for {robot.name}"
                 raise UnknownNameError("unknown-velocity", "velocity", name, known, where=where)
+        units = dict(zip(known, robot.velocity_units, strict=True))
+        for name, unit in zip(self.names, self._rates.units, strict=True):
+            if unit not in ("", units[name]):
+                what = f"the rate of {name!r} is written in {unit}/s, but {robot.name} has it in {units[name]}/s"
+                raise InputError("unit", what, where=self.source, remedy=f"write it in {units[name]}, or plainly")
         missing = [name for name in known if name not in self.names]
         if missing:
             what = f"there are no rates of {', '.join(missing)}, which {robot.name} has"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
+from pinscrew.ground.expressions import Unit
 from pinscrew.ground.typing import FloatArray
 
 __all__ = ["Rates"]
@@ -18,10 +19,15 @@ class Rates(ABC):
         start: the first time (s).
         end: the last time (s); both belong to it.
         source: where it came from, for messages.
+        units: of each, per second, what was written: ``"rad"``, ``"m"``, or ``""`` where nothing was, and either fits.
     """
 
-    def __init__(self, names: Sequence[str], start: float, end: float, source: str) -> None:
+    def __init__(
+        self, names: Sequence[str], start: float, end: float, source: str, units: Sequence[Unit] | None = None
+    ) -> None:
         self.names = tuple(names)
+        no_units: tuple[Unit, ...] = ("",)
+        self.units: tuple[Unit, ...] = no_units * len(self.names) if units is None else tuple(units)
         self.start = start
         self.end = end
         self.source = source

@@ -14,12 +14,22 @@ from numpy.typing import NDArray
 
 from pinscrew.description.model import SCALAR_TYPES, Description, Joint, drivers, read_only
 from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.expressions import Unit
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 
 __all__ = ["Coordinates", "JointMotion", "Mechanism", "mechanism_of"]
 
 _POSITIONS: Final = {"floating": ("x", "y", "z", "qx", "qy", "qz", "qw"), "planar": ("x", "y", "theta")}
+_POSITION_UNITS: Final[dict[str, tuple[Unit, ...]]] = {
+    "floating": ("m", "m", "m", "", "", "", ""),
+    "planar": ("m", "m", "rad"),
+    "prismatic": ("m",),
+}
+_VELOCITY_UNITS: Final[dict[str, tuple[Unit, ...]]] = {
+    **_POSITION_UNITS,
+    "floating": ("m", "m", "m", "rad", "rad", "rad"),
+}
 _VELOCITIES: Final = {"floating": ("vx", "vy", "vz", "wx", "wy", "wz"), "planar": ("vx", "vy", "wz")}
 # The unit twists (v, ω) that the velocities of these joints multiply, in the child's frame (as in Pinocchio).
 _UNIT_TWISTS: Final = {"floating": np.eye(6), "planar": np.eye(6)[:, [0, 1, 5]]}
@@ -76,12 +86,19 @@ class Coordinates:
     velocity_names: tuple[str, ...]
     limits: FloatArray
     neutral: FloatArray
-    slides: NDArray[np.bool_]
-    """Which entries of ``q`` are displacements (m); the others are angles (rad), or a quaternion's."""
+    units: tuple[Unit, ...]
+    """Of each entry of ``q``: ``"m"``, ``"rad"``, or ``""`` of a quaternion's."""
+    velocity_units: tuple[Unit, ...]
+    """Of each entry of ``qd``, per second."""
     q: Mapping[str, int]
     """Where each joint's coordinates start in ``q``."""
     v: Mapping[str, int]
     """Where each joint's velocities start in ``qd``."""
+
+    @property
+    def slides(self) -> NDArray[np.bool_]:
+        """Which entries of ``q`` are displacements, shape (nq,); the others are angles, or a quaternion's."""
+        return np.array([unit == "m" for unit in self.units], dtype=bool)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,36 +172,36 @@ def _coordinates(description: Description) -> Coordinates:
     velocity_names: list[str] = []
     limits: list[tuple[float, float]] = []
     neutral: list[float] = []
-    slides: list[bool] = []
+    units: list[Unit] = []
+    velocity_units: list[Unit] = []
     for joint in description.joints:
         if joint.type == "fixed" or joint.mimic is not None:
             continue
         q[joint.name], v[joint.name] = len(names), len(velocity_names)
+        units += _POSITION_UNITS.get(joint.type, ("rad",))
+        velocity_units += _VELOCITY_UNITS.get(joint.type, ("rad",))
         if joint.type in SCALAR_TYPES:
             names.append(joint.name)
             velocity_names.append(joint.name)
             limits.append((joint.limits.lower, joint.limits.upper))
             neutral.append(0.0)
-            slides.append(joint.type == "prismatic")
         else:
             names += [f"{joint.name}.{part}" for part in _POSITIONS[joint.type]]
             velocity_names += [f"{joint.name}.{part}" for part in _VELOCITIES[joint.type]]
             limits += [(-math.inf, math.inf)] * len(_POSITIONS[joint.type])
             neutral += [float(part == "qw") for part in _POSITIONS[joint.type]]
-            slides += [part in ("x", "y", "z") for part in _POSITIONS[joint.type]]
     for name, count in Counter(names).items():
         if count > 1:
             what = f"two coordinates would be called {name!r}"
             raise DescriptionError("reserved-name", what, file=description.file, remedy="rename the joint")
-    sliding = np.array(slides, dtype=bool)
-    sliding.setflags(write=False)
     return Coordinates(
         joint_names=tuple(q),
         names=tuple(names),
         velocity_names=tuple(velocity_names),
         limits=read_only(np.array(limits).reshape(-1, 2)),
         neutral=read_only(np.array(neutral)),
-        slides=sliding,
+        units=tuple(units),
+        velocity_units=tuple(velocity_units),
         q=MappingProxyType(q),
         v=MappingProxyType(v),
     )

@@ -11,6 +11,7 @@ import numpy as np
 from pinscrew.description.model import Description, Joint, Rebuilt
 from pinscrew.ground.displays import Displayed
 from pinscrew.ground.errors import AmbiguousTipError, DescriptionError, InputError, UnknownNameError
+from pinscrew.ground.expressions import Unit
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.robot.mechanism import Mechanism, mechanism_of
@@ -99,6 +100,16 @@ class Robot(Rebuilt, Displayed):
     def velocity_names(self) -> tuple[str, ...]:
         """One name per entry of ``qd``: the joint's, or such as ``root_joint.wx``. Length `nv`."""
         return self.mechanism.coordinates.velocity_names
+
+    @property
+    def coordinate_units(self) -> tuple[Unit, ...]:
+        """Of each entry of ``q``: ``"rad"``, ``"m"``, or ``""`` of a quaternion's. Length `nq`."""
+        return self.mechanism.coordinates.units
+
+    @property
+    def velocity_units(self) -> tuple[Unit, ...]:
+        """Of each entry of ``qd``, per second: ``"rad"`` or ``"m"``. Length `nv`."""
+        return self.mechanism.coordinates.velocity_units
 
     @property
     def nq(self) -> int:

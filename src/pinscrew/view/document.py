@@ -72,9 +72,15 @@ def document(model: Model, state: State, *, live: str = "", picture: tuple[int, 
         "tip": model.tip,
         "size": model.size,
         "coordinates": [
-            {"name": name, "lower": _finite(low), "upper": _finite(high), "neutral": float(zero), "angle": angle}
-            for name, (low, high), zero, angle in zip(
-                robot.coordinate_names, robot.limits, robot.neutral, _angles(model), strict=True
+            {
+                "name": name,
+                "lower": _finite(low),
+                "upper": _finite(high),
+                "neutral": float(zero),
+                "angle": unit == "rad",
+            }
+            for name, (low, high), zero, unit in zip(
+                robot.coordinate_names, robot.limits, robot.neutral, robot.coordinate_units, strict=True
             )
         ],
         "velocities": list(robot.velocity_names),
@@ -132,18 +138,6 @@ def _finite(value: float) -> float | None:
 def _matrix(T: FloatArray) -> list[float]:
     """A matrix as 16 numbers, row by row."""
     return [float(x) for x in T.ravel()]
-
-
-def _angles(model: Model) -> list[bool]:
-    """Of each coordinate, whether it is an angle."""
-    angles = [False] * model.robot.nq
-    for motion in model.robot.mechanism.motions:
-        if motion.joint.mimic is None:
-            if motion.joint.type in ("revolute", "continuous"):
-                angles[motion.q] = True
-            elif motion.joint.type == "planar":
-                angles[motion.q + 2] = True
-    return angles
 
 
 def _body(body: Body) -> Json:
