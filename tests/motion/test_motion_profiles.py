@@ -254,7 +254,8 @@ def test_rates_are_of_the_joints_units(rates: dict[str, str | float], wrong: tup
     with pytest.raises(InputError) as caught:
         profile.columns(scara)
     assert caught.value.code == "unit"
-    assert f"the rate of {wrong[0]!r} is written in {wrong[1]}, but {scara.name} has it in {wrong[2]}" in str(caught.value)
+    words = f"the rate of {wrong[0]!r} is written in {wrong[1]}, but {scara.name} has it in {wrong[2]}"
+    assert words in str(caught.value)
 
 
 def test_pieces_of_one_velocity_have_one_unit() -> None:
