@@ -261,6 +261,18 @@ def test_no_distance_is_told_that_only_rounding_made() -> None:
     assert "at equal coordinates the tips stand where they stood" in str(limits)
 
 
+def test_an_angle_within_the_tolerance_is_told_where_it_moves_a_tip_by_more() -> None:
+    """j2 turned by 1e-4 rad in its origin moves the tool, 0.7 m away, by 70 µm."""
+    a, b = urdfs.load(ARM), edited(('xyz="0 0 0.2" rpy="0 0 0"', 'xyz="0 0 0.2" rpy="0 0 1e-4"'))
+    (change,) = ps.diff(a, b, length=1e-5, angle=1e-3).changes
+    assert (change.kind, change.joint, change.length) == ("link-moved", "j2", 0.0)
+    assert change.angle == pytest.approx(1e-4)
+    assert "displaces what is farther out by more than the tolerance" in change.words
+    (change,) = ps.diff(a, b, length=1e-5, angle=1e-5).changes
+    assert change.kind == "axis-turned"
+    assert "tolerance" not in change.words
+
+
 @pytest.mark.parametrize("bad", [-1.0, math.nan, math.inf])
 def test_bad_tolerances(bad: float) -> None:
     with pytest.raises(InputError, match="is no tolerance; give 0 or a positive number"):
@@ -347,7 +359,7 @@ def test_without_the_displacement_other_joints_are_blamed(monkeypatch: pytest.Mo
     """What the way down is for: if it carried nothing, everything below an edit would be called changed."""
     b = edited(('xyz="0 0 0.3" rpy="0 0 0"', 'xyz="0.01 0 0.3" rpy="0 0 0"'))
     assert [c.joint for c in ps.diff(urdfs.load(ARM), b).changes] == ["j1"]
-    monkeypatch.setattr(walk._Table, "behind", lambda _self, _i, above: above)
+    monkeypatch.setattr(walk._Edits, "behind", lambda _self, _i, above: above)
     assert len(ps.diff(urdfs.load(ARM), b).changes) > 1
 
 

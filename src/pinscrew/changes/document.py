@@ -149,9 +149,9 @@ def _apart(changes: ChangesData) -> list[str]:
     if apart is None:
         return ["the two do not have the same coordinates and tips, so displacements can't be given"]
     told = []
-    if apart.length > changes.near.length:
+    if apart.length > changes.tolerance.length:
         told.append(f"tips come apart by {millimetres(apart.length)} at most: {_place(apart.length_at)}")
-    if apart.angle > changes.near.angle:
+    if apart.angle > changes.tolerance.angle:
         told.append(f"tips are turned by {degrees(apart.angle)} at most: {_place(apart.angle_at)}")
     return told or ["at equal coordinates the tips stand where they stood"]
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from pinscrew.description.model import Joint
 
-__all__ = ["Change", "ChangesData", "Displacement", "Near", "TipPlace"]
+__all__ = ["Change", "ChangesData", "Displacement", "TipPlace", "Tolerance"]
 
 
 @dataclass(frozen=True)
-class Near:
+class Tolerance:
     """What counts as equal. Metres and radians don't meet: the tolerance of a joint's value is asked of the joint.
 
     Attributes:
@@ -83,6 +83,10 @@ class Displacement:
     angle: float
     angle_at: TipPlace
 
+    def within(self, tolerance: Tolerance) -> bool:
+        """Whether the tips stand where they stood, to a tolerance."""
+        return self.length <= tolerance.length and self.angle <= tolerance.angle
+
 
 @dataclass(frozen=True)
 class ChangesData:
@@ -97,7 +101,7 @@ class ChangesData:
             common tip.
         file: b's file, to which the changes' lines belong.
         fail_on: what of the notes is to fail: names of `pinscrew.changes.gates.GATES`.
-        near: within what tips stand where they stood: the tolerance, or where that is less what rounding does.
+        tolerance: within what tips stand where they stood: what was allowed, or where that is less what rounding does.
     """
 
     a: str
@@ -107,7 +111,7 @@ class ChangesData:
     displacement: Displacement | None
     file: str = ""
     fail_on: frozenset[str] = frozenset()
-    near: Near = Near(0.0, 0.0)
+    tolerance: Tolerance = Tolerance(0.0, 0.0)
 
     @property
     def same(self) -> bool:

@@ -83,6 +83,7 @@ ERRORS: Final[dict[str, str]] = {
     "frames": "There are no frames to compare.",
     "samples": "A number of samples is negative or no whole number, or there are none, or too many to be drawn.",
     "seed": "A seed is negative, or no whole number.",
+    "too-many-changes": "Two robots differ in so many joints, in so many ways, that the edits can't be told apart.",
     "tolerance": "A tolerance is not positive.",
     "draw": "Something is to be drawn that does not exist.",
     "fps": "A number of pictures per second is not within 0 to 240.",
