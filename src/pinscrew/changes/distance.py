@@ -29,7 +29,7 @@ def columns(a: Robot, b: Robot, joints: Mapping[str, str]) -> list[int] | None:
     if len(a.joint_names) != len(b.joint_names) or a.nq != b.nq:
         return None
     mine, theirs = ({m.joint.name: m for m in r.mechanism.motions if m.joint.mimic is None} for r in (a, b))
-    found: list[int] = []
+    places: list[int] = []
     for name, motion in mine.items():
         # Names that were swapped mean other coordinates now.
         other = theirs.get(name) or theirs.get(joints.get(name, ""))
@@ -38,8 +38,8 @@ def columns(a: Robot, b: Robot, joints: Mapping[str, str]) -> list[int] | None:
         types = {motion.joint.type, other.joint.type}
         if len(types) > 1 and types != TURNING:
             return None
-        found += range(b.nq)[other.coordinates]
-    return found if len(set(found)) == len(found) else None
+        places += range(b.nq)[other.coordinates]
+    return places if len(set(places)) == len(places) else None
 
 
 def largest(a: Robot, b: Robot, columns: Sequence[int], tips: Sequence[tuple[str, str]]) -> Displacement | None:
@@ -75,11 +75,11 @@ def largest(a: Robot, b: Robot, columns: Sequence[int], tips: Sequence[tuple[str
 
 def _q(robot: Robot, q: FloatArray, tip: str) -> dict[str, float]:
     """The coordinates that move a tip, by their names."""
-    found: dict[str, float] = {}
+    moving: dict[str, float] = {}
     for motion in (robot.mechanism.motions[i] for i in robot.motions_above(tip)):
         names = robot.coordinate_names[motion.coordinates]
-        found.update(zip(names, q[motion.coordinates].tolist(), strict=True))
-    return found
+        moving.update(zip(names, q[motion.coordinates].tolist(), strict=True))
+    return moving
 
 
 def _common(a: Robot, b: Robot, columns: Sequence[int], q: FloatArray) -> FloatArray:

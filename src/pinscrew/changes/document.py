@@ -10,7 +10,7 @@ from pinscrew.changes.outcome import Change, ChangesData, TipPlace
 from pinscrew.changes.wording import degrees, millimetres, number
 from pinscrew.ground.errors import PinscrewError
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Document, Line, Role, Section, cases_of
+from pinscrew.reporting.document import Document, Role, Section, Sentence, cases_of
 from pinscrew.reporting.findings import Finding, Level
 from pinscrew.reporting.troubles import from_error
 
@@ -33,21 +33,21 @@ TASK: Final = "pinscrew diff"
 def document(changes: ChangesData) -> Document:
     """The changes as a document of one section."""
     title = f"{changes.a} → {changes.b}"
-    told = findings(changes, title, changed="motion-changed", kept="motion-kept")
+    listed = findings(changes, title, changed="motion-changed", kept="motion-kept")
     section = Section(
         title=title,
         heading=_summary(changes),
         lines=_lines(changes),
         notes_heading="Without a change of the motion:",
-        cases=cases_of(told),
+        cases=cases_of(listed),
     )
-    return Document(TASK, passes(changes), (section,), told, _data(changes))
+    return Document(TASK, passes(changes), (section,), listed, _data(changes))
 
 
 def failure(title: str, error: PinscrewError) -> Document:
     """The document of a comparison that an error kept from being made."""
     finding = from_error(error, title)
-    heading, line = f"{title}: could not be compared", Line(finding.message, "paragraph")
+    heading, line = f"{title}: could not be compared", Sentence(finding.message, "paragraph")
     section = Section(title, heading, lines=(line,), cases=cases_of([finding]), tried=False)
     return Document(TASK, ok=False, sections=(section,), findings=(finding,))
 
@@ -73,21 +73,21 @@ def _summary(changes: ChangesData) -> str:
     return f"{one_line(changes.a)} → {one_line(changes.b)}: {outcome}{remarked}"
 
 
-def _lines(changes: ChangesData) -> tuple[Line, ...]:
+def _lines(changes: ChangesData) -> tuple[Sentence, ...]:
     """The changes, the notes (first those to fail on), how far the tips come apart, and what was let pass."""
     passed = let_pass(changes.notes, changes.fail_on)
     return (
         *sentences(changes, placed=True),
-        *(Line(text) for text in _apart(changes)),
-        *([Line(passed)] if passed else []),
+        *(Sentence(text) for text in _apart(changes)),
+        *([Sentence(passed)] if passed else []),
     )
 
 
-def sentences(changes: ChangesData, *, placed: bool) -> tuple[Line, ...]:
+def sentences(changes: ChangesData, *, placed: bool) -> tuple[Sentence, ...]:
     """A line for each change and note, first those that fail; ``placed`` adds the lines of b's file."""
 
-    def line(change: Change, role: Role, why: str = "") -> Line:
-        return Line(f"{change.words}{why}{_place_of(change) if placed else ''}", role, change.kind)
+    def line(change: Change, role: Role, why: str = "") -> Sentence:
+        return Sentence(f"{change.words}{why}{_place_of(change) if placed else ''}", role, change.kind)
 
     gates = {id(note): failing_gate(note, changes.fail_on) for note in changes.notes}
     return (
@@ -148,12 +148,12 @@ def _apart(changes: ChangesData) -> list[str]:
         return []
     if apart is None:
         return ["the two do not have the same coordinates and tips, so displacements can't be given"]
-    told = []
+    lines = []
     if apart.length > changes.tolerance.length:
-        told.append(f"tips come apart by {millimetres(apart.length)} at most: {_place(apart.length_at)}")
+        lines.append(f"tips come apart by {millimetres(apart.length)} at most: {_place(apart.length_at)}")
     if apart.angle > changes.tolerance.angle:
-        told.append(f"tips are turned by {degrees(apart.angle)} at most: {_place(apart.angle_at)}")
-    return told or ["at equal coordinates the tips stand where they stood"]
+        lines.append(f"tips are turned by {degrees(apart.angle)} at most: {_place(apart.angle_at)}")
+    return lines or ["at equal coordinates the tips stand where they stood"]
 
 
 def _place(place: TipPlace) -> str:

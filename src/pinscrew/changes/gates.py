@@ -77,5 +77,5 @@ def let_pass(notes: Iterable[Change], fail_on: frozenset[str]) -> str:
     counts = {gate: passed.count(gate) for gate in GATES if gate in passed}
     if not counts:
         return ""
-    told = ", ".join(f"{count} of {gate}" for gate, count in counts.items())
-    return f"let pass: {told} (--fail-on {','.join(counts)})"
+    listed = ", ".join(f"{count} of {gate}" for gate, count in counts.items())
+    return f"let pass: {listed} (--fail-on {','.join(counts)})"

@@ -144,7 +144,7 @@ def _named(folder: str, name: str) -> Iterator[None]:
 
     def renamed(value: Any) -> Any:
         if isinstance(value, tuple):
-            return tuple(renamed(one) for one in value)
+            return tuple(renamed(element) for element in value)
         return value.replace(folder, name) if isinstance(value, str) else value
 
     remarks: list[PinscrewWarning] = []
@@ -152,7 +152,7 @@ def _named(folder: str, name: str) -> Iterator[None]:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", PinscrewWarning)
             yield
-        remarks += [one.message for one in caught if isinstance(one.message, PinscrewWarning)]
+        remarks += [warning.message for warning in caught if isinstance(warning.message, PinscrewWarning)]
     except PinscrewError as error:
         error.args = renamed(error.args)
         vars(error).update({key: renamed(value) for key, value in vars(error).items()})

@@ -68,7 +68,7 @@ def command(
     if len(named) != 2:
         raise click.UsageError(f"expected two robots, but got {len(named)}")
     try:
-        a, b = (_load(one) for one in named)
+        a, b = (_load(robot) for robot in named)
     except PinscrewError as error:
         wanted.write(_failed(named, error))
         raise

@@ -80,12 +80,12 @@ def _write(
         raise click.UsageError("--output takes one robot")
     texts: dict[Path, str] = {}
     with progress("reading", len(named)) as advance:
-        for one in named:
-            path, robot = _robot(one, written, tip)
+        for asked in named:
+            path, robot = _robot(asked, written, tip)
             if path in texts:
                 raise click.UsageError(f"two robots for the lock {path}; name one of them with --output")
             texts[path] = text(robot, path, fail_on=_kept(path) if fail_on is None else fail_on)
-            advance(1, one.source)
+            advance(1, asked.source)
     changed = [path for path, content in texts.items() if not _holds(path, content)]
     for path in changed:
         output.write_file(path, texts[path])
@@ -197,11 +197,11 @@ def _locks(words: Sequence[str]) -> list[tuple[Path, Path | None]]:
     from pinscrew.lockfile.places import below, beside, is_lock
 
     paths: list[tuple[Path, Path | None]] = []
-    for one in arguments.robots(words):
-        if one.arguments:
+    for asked in arguments.robots(words):
+        if asked.arguments:
             raise click.UsageError("--check takes the xacro arguments from the locks")
-        file = Path(one.source)
-        paths.append((file, None) if is_lock(file) else (beside(one.source), file))
+        file = Path(asked.source)
+        paths.append((file, None) if is_lock(file) else (beside(asked.source), file))
     if not words:
         paths = [(path, None) for path in below(Path())]
     if not paths:

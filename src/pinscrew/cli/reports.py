@@ -88,8 +88,8 @@ fail_on_option = click.option(
 """What notes fail, as a set; None where it is not given."""
 
 
-def _file(name: str, what: str) -> Callable[[_F], _F]:
-    return click.option(f"--{name}", type=arguments.OUTPUT, help=f"Write {what} to this file.")
+def _file(name: str, form: str) -> Callable[[_F], _F]:
+    return click.option(f"--{name}", type=arguments.OUTPUT, help=f"Write {form} to this file.")
 
 
 def report_options(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -102,7 +102,7 @@ def report_options(function: Callable[..., Any]) -> Callable[..., Any]:
     @click.option("--github", is_flag=True, help="Write annotations to stderr, and Markdown to a GitHub job's summary.")
     @functools.wraps(function)
     def command(
-        *given: Any,
+        *positional: Any,
         as_json: bool,
         junit: Path | None,
         markdown: Path | None,
@@ -110,6 +110,6 @@ def report_options(function: Callable[..., Any]) -> Callable[..., Any]:
         github: bool,
         **others: Any,
     ) -> Any:
-        return function(*given, wanted=Wanted(as_json, junit, markdown, sarif, github), **others)
+        return function(*positional, wanted=Wanted(as_json, junit, markdown, sarif, github), **others)
 
     return command

@@ -69,8 +69,8 @@ def check(
         UnknownNameError: if the robot has no longer the frame that was its tip.
     """
     lock = read_lock(path)
-    held = lock.content.fail_on
-    asked = gates(fail_on if fail_on is not None else held if held is not None else otherwise)
+    kept = lock.content.fail_on
+    asked = gates(fail_on if fail_on is not None else kept if kept is not None else otherwise)
     robot = reload(lock, source=source, packages=packages, allow_outside=allow_outside)
     if fingerprint(robot) == lock.content.hash and robot.description.name == lock.content.robot:
         return LockCheck(lock.path, robot, None)
@@ -91,18 +91,18 @@ def reload(
     allow_outside: bool = False,
 ) -> Robot:
     """The robot of a lock, read from its file as that is now; see `check`."""
-    held = lock.content
+    content = lock.content
     named = None if source is None else Path(source)
-    check_source(lock.path, held.source, named=named, allow_outside=allow_outside)
+    check_source(lock.path, content.source, named=named, allow_outside=allow_outside)
     if not is_file(lock.source):
-        what = f"there is no {held.source!r}, from which it was made"
+        what = f"there is no {content.source!r}, from which it was made"
         remedy = "put the file back, or remove the lock"
         raise DescriptionError("lock-source", what, file=lock.path, remedy=remedy)
     return load(
         lock.source,
-        floating_base=held.floating_base,
-        tip=held.tip,
-        arguments=held.arguments,
+        floating_base=content.floating_base,
+        tip=content.tip,
+        arguments=content.arguments,
         packages=packages,
         allow_outside=allow_outside,
     )

@@ -11,7 +11,7 @@ from pinscrew.changes.document import as_data, findings, sentences
 from pinscrew.changes.gates import failing_gate, let_pass
 from pinscrew.ground.errors import PinscrewError
 from pinscrew.lockfile.outcome import LockCheckData
-from pinscrew.reporting.document import Document, Line, Section, cases_of
+from pinscrew.reporting.document import Document, Section, Sentence, cases_of
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.troubles import from_error
 
@@ -32,12 +32,12 @@ def document(checked: Sequence[LockCheckData], errors: Sequence[tuple[Path, Pins
     else:
         closing = f"{same} of {asked} mechanisms are those of their locks"
     failures = [(path, from_error(error, str(path))) for path, error in errors]
-    told = [finding for check in checked for finding in _findings(check)]
+    findings = [finding for check in checked for finding in _findings(check)]
     return Document(
         task=TASK,
         ok=not errors and not failed,
         sections=(*map(_section, checked), *(_unchecked(path, finding) for path, finding in failures)),
-        findings=(*told, *(finding for _, finding in failures)),
+        findings=(*findings, *(finding for _, finding in failures)),
         data=_data(checked, errors),
         overview=f"pinscrew lock: {same} of {asked} mechanisms are those of their locks",
         closing=closing + _let_pass(checked),
@@ -72,7 +72,7 @@ def _unchecked(path: Path, finding: Finding) -> Section:
     return Section(
         title=str(path),
         heading=f"{path}: could not be checked",
-        lines=(Line(finding.message, "paragraph"),),
+        lines=(Sentence(finding.message, "paragraph"),),
         cases=cases_of([finding]),
         tried=False,
     )

@@ -88,13 +88,13 @@ def parse(text: str, file: Path) -> LockContent:
         DescriptionError: if it is not a whole lock of this version, holds what no robot has, or does not have the hash
             that it states.
     """
-    held = _json(text, file)
-    stated = held.get("schema") if isinstance(held, dict) else None
+    data = _json(text, file)
+    stated = data.get("schema") if isinstance(data, dict) else None
     if stated != SCHEMA:
         what = f"its schema is {_shown(stated)}, and not {SCHEMA!r}"
         raise DescriptionError("lock-schema", what, file=file, remedy=_REMEDY)
     keys = ("schema", "robot", "source", "hash", "base", "joints")
-    top = _At(held, "the lock", file).keys(keys, ("arguments", "floating_base", "tip", "fail_on"))
+    top = _At(data, "the lock", file).keys(keys, ("arguments", "floating_base", "tip", "fail_on"))
     base = top["base"].string()
     joints: dict[str, LockedJoint] = {}
     links = {base}
@@ -140,11 +140,11 @@ def _no_constant(name: str) -> NoReturn:
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    values = dict(pairs)
+    if len(values) < len(pairs):
         names = [name for name, _ in pairs]
         raise ValueError(f"{next(name for name in names if names.count(name) > 1)!r} is there twice")
-    return found
+    return values
 
 
 def _source(at: _At) -> str:

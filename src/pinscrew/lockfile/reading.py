@@ -46,22 +46,22 @@ class Lock:
         Raises:
             DescriptionError: if its names can't be a robot's; see `Robot`.
         """
-        held = self.content
-        homes: dict[str, FloatArray] = {held.base: np.eye(4)}
-        driven = drivers({joint.name: joint.mimic for joint in held.joints})
+        content = self.content
+        homes: dict[str, FloatArray] = {content.base: np.eye(4)}
+        driven = drivers({joint.name: joint.mimic for joint in content.joints})
         joints = []
-        for joint in held.joints:
+        for joint in content.joints:
             homes[joint.child] = joint.home
             joints.append(_joint(joint, homes[joint.parent], driven[joint.name].offset))
         description = Description(
-            name=held.robot,
+            name=content.robot,
             file=str(self.path),
             text="",
             links=tuple(homes),
             joints=tuple(joints),
-            arguments=held.arguments,
+            arguments=content.arguments,
         )
-        return Robot(held.robot, description, held.floating_base, held.tip)
+        return Robot(content.robot, description, content.floating_base, content.tip)
 
 
 def read(path: str | Path) -> Robot:

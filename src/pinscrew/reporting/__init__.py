@@ -7,7 +7,7 @@ one such function.
 
 from __future__ import annotations
 
-from pinscrew.reporting.document import Case, Document, Line, Problem, ResultTable, Section, Strong, cases_of
+from pinscrew.reporting.document import Case, Document, Problem, ResultTable, Section, Sentence, Strong, cases_of
 from pinscrew.reporting.documented import Documented
 from pinscrew.reporting.findings import RULES, Finding, Level
 from pinscrew.reporting.github import to_annotations
@@ -25,10 +25,10 @@ __all__ = [
     "Documented",
     "Finding",
     "Level",
-    "Line",
     "Problem",
     "ResultTable",
     "Section",
+    "Sentence",
     "Strong",
     "cases_of",
     "from_error",

@@ -16,7 +16,7 @@ from typing import Any, Literal, TypeAlias
 
 from pinscrew.reporting.findings import RULES, Finding
 
-__all__ = ["Case", "Document", "Line", "Problem", "ResultTable", "Role", "Section", "Strong", "cases_of"]
+__all__ = ["Case", "Document", "Problem", "ResultTable", "Role", "Section", "Sentence", "Strong", "cases_of"]
 
 Role: TypeAlias = Literal["fault", "note", "remark", "paragraph"]
 """What a line is: what is wrong, what is only noted, what explains either, or text for itself."""
@@ -37,7 +37,7 @@ class ResultTable:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class Sentence:
     """One sentence of a section.
 
     Attributes:
@@ -86,7 +86,7 @@ class Section:
     title: str
     heading: str
     table: ResultTable | None = None
-    lines: tuple[Line, ...] = ()
+    lines: tuple[Sentence, ...] = ()
     notes_heading: str = ""
     cases: tuple[Case, ...] = ()
     tried: bool = True

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from pinscrew.ground.escaping import markdown
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Document, Line, ResultTable, Section, Strong
+from pinscrew.reporting.document import Document, ResultTable, Section, Sentence, Strong
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.paths import below
 
@@ -32,7 +32,7 @@ def _section(section: Section) -> Iterator[str]:
         yield from (_plain(section.notes_heading), "", *map(_line, notes), "")
 
 
-def _line(line: Line) -> str:
+def _line(line: Sentence) -> str:
     if line.role == "paragraph":
         return _plain(line.text)
     label = f"**{line.label}**" if line.role == "fault" else line.label

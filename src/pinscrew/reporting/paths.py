@@ -16,9 +16,9 @@ def top() -> Path:
     here = Path.cwd()
     workspace = os.environ.get("GITHUB_WORKSPACE", "")
     if workspace:
-        found = Path(workspace).resolve()
-        if here.is_relative_to(found):
-            return found
+        folder = Path(workspace).resolve()
+        if here.is_relative_to(folder):
+            return folder
     return here
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 from pinscrew.ground.version import version_of
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Case, Document, Line, Problem, ResultTable, Section, Strong
+from pinscrew.reporting.document import Case, Document, Problem, ResultTable, Section, Sentence, Strong
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.troubles import from_error, from_warning
 from pinscrew.verification.outcome import Check, ReportData
@@ -75,7 +75,7 @@ def _section(report: ReportData) -> Section:
         title=robot if engines == "PoE and Pinocchio" else f"{robot} ({engines})",
         heading=summary(report),
         table=table(report),
-        lines=tuple(Line(text) for text in details(report)),
+        lines=tuple(Sentence(text) for text in details(report)),
         cases=tuple(_case(report, check) for check in report.checks),
     )
 
@@ -84,7 +84,7 @@ def _unverified(robot: str, error: PinscrewError) -> Section:
     return Section(
         title=robot,
         heading=f"{robot}: could not be verified",
-        lines=(Line(str(error), "paragraph"),),
+        lines=(Sentence(str(error), "paragraph"),),
         cases=(Case("verify", Problem("error", str(error), error.code)),),
         tried=False,
     )
