@@ -285,3 +285,17 @@ def test_the_text_is_not_read() -> None:
     q, _ = urdfs.sample(robot, 5)
     other = dataclasses.replace(robot.description, text="no XML")
     np.testing.assert_array_equal(ps.PoE(ps.Robot.from_description(other)).fk(q), make("rotated").fk(q))
+
+
+def test_poses_of_several_frames_are_those_of_each() -> None:
+    """Against Pinocchio, over more than one block of configurations; with the checks that every question has."""
+    robot = urdfs.load(urdfs.tree())
+    q, _ = urdfs.sample(robot, 300)
+    frames = ["camera", "l2", "base"]
+    T = ps.PoE(robot).poses(q, frames)
+    pin = ps.Pinocchio(robot)
+    assert pytest.approx(np.stack([pin.fk(q, frame) for frame in frames], axis=1), abs=1e-12) == T
+    with pytest.raises(ps.PinscrewError):
+        ps.PoE(robot).poses(q, ["nowhere"])
+    with pytest.raises(ps.PinscrewError):
+        ps.PoE(robot).poses(q * np.nan, frames)

@@ -60,17 +60,15 @@ def largest(a: Robot, b: Robot, columns: Sequence[int], tips: Sequence[tuple[str
     q_a = _common(a, b, columns, drawn.q[: drawn.inside])
     q_b = np.empty_like(q_a)
     q_b[:, list(columns)] = q_a
-    engines = PoE(a), PoE(b)
-    best: list[tuple[float, str, int]] = [(-1.0, "", 0)] * 2
-    for tip_a, tip_b in tips:
-        T_a, T_b = engines[0].fk(q_a, tip_a), engines[1].fk(q_b, tip_b)
-        errors = _distance(T_a, T_b)
-        for i, error in enumerate(errors):
-            at = int(error.argmax())
-            if error[at] > best[i][0]:
-                best[i] = (float(error[at]), tip_a, at)
-    places = [TipPlace(tip, _q(a, q_a[at], tip)) for _, tip, at in best]
-    return Displacement(best[0][0], places[0], best[1][0], places[1])
+    T_a, T_b = PoE(a).poses(q_a, [tip for tip, _ in tips]), PoE(b).poses(q_b, [tip for _, tip in tips])
+    lengths = np.linalg.norm(T_b[..., :3, 3] - T_a[..., :3, 3], axis=-1)
+    angles = turned(T_a[..., :3, :3], T_b[..., :3, :3])
+    farthest = []
+    for errors in (lengths.T, angles.T):
+        tip, at = np.unravel_index(int(errors.argmax()), errors.shape)
+        name = tips[int(tip)][0]
+        farthest.append((float(errors[tip, at]), TipPlace(name, _q(a, q_a[at], name))))
+    return Displacement(*farthest[0], *farthest[1])
 
 
 def _q(robot: Robot, q: FloatArray, tip: str) -> dict[str, float]:
@@ -85,13 +83,9 @@ def _q(robot: Robot, q: FloatArray, tip: str) -> dict[str, float]:
 def _common(a: Robot, b: Robot, columns: Sequence[int], q: FloatArray) -> FloatArray:
     """Configurations of a, brought within b's limits too where the two overlap."""
     limits_a, limits_b = effective_limits(a), effective_limits(b)[list(columns)]
-    lower, upper = np.maximum(limits_a[:, 0], limits_b[:, 0]), np.minimum(limits_a[:, 1], limits_b[:, 1])
+    both = np.stack([limits_a, limits_b])
+    lower, upper = both[..., 0].max(axis=0), both[..., 1].min(axis=0)
     overlap = lower <= upper
     lower, upper = np.where(overlap, lower, limits_a[:, 0]), np.where(overlap, upper, limits_a[:, 1])
     bounded = np.isfinite(a.limits).any(axis=1)
     return np.where(bounded, np.clip(q, lower, upper), q)
-
-
-def _distance(T_a: FloatArray, T_b: FloatArray) -> tuple[FloatArray, FloatArray]:
-    lengths: FloatArray = np.linalg.norm(T_b[:, :3, 3] - T_a[:, :3, 3], axis=1)
-    return lengths, turned(T_a[:, :3, :3], T_b[:, :3, :3])

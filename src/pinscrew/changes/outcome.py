@@ -47,8 +47,8 @@ class Change:
     joint: str
     link: str
     words: str
-    length: float = 0.0
-    angle: float = 0.0
+    length: float
+    angle: float
     line: int | None = None
     file: str = ""
     tip: bool = False

@@ -84,6 +84,28 @@ class PoE(CheckedEngine):
             store(out[block], chain.derivative(frame, kind))
         return out
 
+    def poses(self, q: FloatArray, frames: Sequence[str]) -> FloatArray:
+        """Poses of several frames at a flat batch, sharing the way down the tree.
+
+        Args:
+            q: coordinates, shape (N, nq).
+            frames: names of F links.
+
+        Returns:
+            ``T_base_frame``, shape (N, F, 4, 4).
+
+        Raises:
+            InputError: if ``q`` has another shape or holds what is no finite number.
+            UnknownNameError: if there is no such frame.
+        """
+        q, _ = self._coordinates(q)
+        out = np.empty((len(q), len(frames), 4, 4))
+        for block in _blocks(len(q)):
+            chain = _Chain(self._robot, self._factors, q[block])
+            for i, frame in enumerate(frames):
+                _store_pose(out[block, i], *chain.pose(self._robot.frame(frame)))
+        return out
+
     def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
         """Everything about ``frames`` at a flat batch, sharing the way down the tree; see the base class."""
         q, qd, names = self._asked(q, qd, frames)

@@ -1,0 +1,384 @@
+"""What `measure` finds, in numbers: displacements, angles and limits that are known beforehand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from diff_edits import Edited, pose, turn
+from scipy.linalg import expm
+
+import pinscrew as ps
+import urdfs
+from pinscrew.changes import distance, matching, measuring, walk
+from pinscrew.changes.differences import AxisMoved, CarriedMoved, Followed, LimitsChanged, Moved, ZeroShifted
+from pinscrew.changes.outcome import Tolerance
+from pinscrew.changes.wording import told_apart
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
+
+NEAR = Tolerance(1e-9, 1e-9)
+ARM = urdfs.robot(
+    urdfs.joint("j1", "revolute", "base", "l1", xyz="0.1 -0.2 0.3", rpy="0.4 -0.7 1.9", axis="0.6 0 0.8"),
+    urdfs.joint("j2", "revolute", "l1", "l2", xyz="0.3 0.1 0.2", rpy="-1.1 0.3 0.5", axis="0 1 0"),
+    urdfs.joint("slide", "prismatic", "l2", "l3", xyz="0.2 0.4 0", rpy="0.2 0.9 -0.4", axis="0 0.6 -0.8"),
+    urdfs.joint("j4", "continuous", "l3", "l4", xyz="0.1 0.2 0.3", rpy="1.2 -0.3 0.8", axis="1 0 0"),
+    urdfs.joint("mount", "fixed", "l4", "tool", xyz="0.1 0 0.05", rpy="0.1 0.2 0.3"),
+    links="base l1 l2 l3 l4 tool",
+)
+SHIFT, TURN = np.array([0.004, -0.007, 0.011]), np.array([0.02, -0.03, 0.01])
+
+
+def differences(edit: Callable[[Edited], None], text: str = ARM, near: Tolerance = NEAR) -> list[object]:
+    e = Edited(text)
+    edit(e)
+    return list(measuring.measure(urdfs.load(text), urdfs.load(e.text), near).differences)
+
+
+def displaced(T: FloatArray) -> FloatArray:
+    """Where a pose in a parent is after the displacement of `SHIFT` and `TURN` of its origin, seen from the parent."""
+    angle = float(np.linalg.norm(TURN))
+    return pose(T[:3, 3] + SHIFT, turn(TURN / angle, angle) @ T[:3, :3])
+
+
+def move_origin(joint: str) -> Callable[[Edited], None]:
+    return lambda e: e.set_origin(joint, displaced(e.origin(joint)))
+
+
+# ------------------------------------------------------------------------ displacements in the parent's frame
+
+
+@pytest.mark.parametrize("joint", ["j1", "j2", "slide", "j4", "mount"])
+def test_an_origin_is_displaced_as_seen_from_the_parent(joint: str) -> None:
+    (moved,) = differences(move_origin(joint))
+    assert isinstance(moved, Moved)
+    assert moved.joint.name == joint
+    assert moved.move.frame == Edited(ARM).link(joint, "parent")
+    assert moved.move.shift == pytest.approx(SHIFT, abs=1e-12)
+    assert moved.move.turn == pytest.approx(TURN, abs=1e-12)
+    assert moved.size == pytest.approx((np.linalg.norm(SHIFT), np.linalg.norm(TURN)))
+    assert moved.kind == ("tip-moved" if joint == "mount" else "axis-turned")
+
+
+@pytest.mark.parametrize("joint", ["j1", "j2", "slide"])
+@pytest.mark.parametrize("back", [False, True])
+def test_an_axis_alone_is_turned_as_seen_from_the_parent(joint: str, back: bool) -> None:
+    """The axis w of b is exp(t) u, with t across u; it may point the other way on top of that."""
+
+    def edit(e: Edited) -> None:
+        e.set_axis(joint, (-1.0 if back else 1.0) * turn(e.across(joint), 0.03) @ e.axis(joint))
+
+    (moved,) = differences(edit)
+    e = Edited(ARM)
+    assert isinstance(moved, AxisMoved)
+    assert (moved.kind, moved.rigid, moved.follows) == ("axis-reversed" if back else "axis-turned", False, None)
+    assert moved.move.turn == pytest.approx(e.origin(joint)[:3, :3] @ (0.03 * e.across(joint)), abs=1e-12)
+    assert moved.move.shift == pytest.approx(np.zeros(3), abs=1e-12)
+
+
+@pytest.mark.parametrize("joint", ["j1", "j2"])
+def test_an_axis_alone_is_moved_across_itself(joint: str) -> None:
+    """The origin goes 3 mm across and 5 mm along the axis, and what hangs from it stays: only the 3 mm count."""
+
+    def edit(e: Edited) -> None:
+        X = pose(3e-3 * e.across(joint) + 5e-3 * e.axis(joint))
+        e.move(joint, X)
+        e.compensate(joint, X)
+
+    (moved,) = differences(edit)
+    e = Edited(ARM)
+    assert isinstance(moved, AxisMoved)
+    assert (moved.kind, moved.rigid, moved.follows) == ("axis-moved", False, None)
+    assert moved.move.shift == pytest.approx(e.origin(joint)[:3, :3] @ (3e-3 * e.across(joint)), abs=1e-12)
+    assert moved.size == pytest.approx((3e-3, 0.0), abs=1e-12)
+
+
+@pytest.mark.parametrize(("kind", "size"), [("revolute", (0.0, 0.02)), ("prismatic", (0.02, 0.0))])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_zero_is_shifted_along_or_about_the_axis(kind: str, size: tuple[float, float], sign: float) -> None:
+    """b at q stands where a stands at q + shift: by Pinocchio at random q."""
+    joint = urdfs.joint("j", kind, "base", "l", xyz="0.1 0.2 0.3", rpy="0.3 0.4 0.5", axis="0.6 0 0.8")
+    text = urdfs.robot(joint, urdfs.joint("m", "fixed", "l", "tool", xyz="0.4 0 0.1"), links="base l tool")
+
+    def edit(e: Edited) -> None:
+        axis = e.axis("j")
+        e.move("j", pose(sign * 0.02 * axis) if kind == "prismatic" else pose(R=turn(axis, sign * 0.02)))
+
+    (shifted,) = differences(edit, text)
+    assert isinstance(shifted, ZeroShifted)
+    assert shifted.value == pytest.approx(sign * 0.02)
+    assert shifted.size == pytest.approx(size)
+    e = Edited(text)
+    edit(e)
+    a, b = ps.Pinocchio(urdfs.load(text)), ps.Pinocchio(urdfs.load(e.text))
+    q = np.linspace(-1.0, 1.0, 7)[:, None]
+    assert b.fk(q, "tool") == pytest.approx(a.fk(q + shifted.value, "tool"), abs=1e-12)
+
+
+def test_what_is_displaced_off_the_axis_is_no_shift_of_the_zero() -> None:
+    """Beside the turn about the axis there is one across, or a shift: the link is displaced, its axis stays."""
+    for X in (pose(1e-3 * np.eye(3)[2], turn("z", 0.02)), pose(2e-3 * np.eye(3)[2])):
+        joint = urdfs.joint("j", "revolute", "base", "l", rpy="0.3 0.4 0.5")
+        text = urdfs.robot(joint, urdfs.joint("m", "fixed", "l", "tool", xyz="0.4 0 0.1"), links="base l tool")
+        (moved,) = differences(lambda e, X=X: e.move("j", X), text)  # type: ignore[misc]
+        assert isinstance(moved, CarriedMoved)
+        R = Edited(text).origin("j")[:3, :3]
+        assert moved.move.shift == pytest.approx(R @ X[:3, 3], abs=1e-12)
+
+
+def test_a_planar_joint_has_a_frame() -> None:
+    (moved,) = differences(move_origin("table"), urdfs.planar())
+    assert isinstance(moved, Moved)
+    assert (moved.kind, moved.move.frame) == ("frame-moved", "mid")
+    assert moved.move.shift == pytest.approx(SHIFT, abs=1e-12)
+    assert moved.move.turn == pytest.approx(TURN, abs=1e-12)
+
+
+def test_a_link_whose_frame_alone_moved_is_seen_from_itself() -> None:
+    """The mount's link has a camera below it that stays; the link, no tip, is re-expressed; a tip is displaced."""
+    X = pose(SHIFT, turn(TURN / np.linalg.norm(TURN), float(np.linalg.norm(TURN))))
+    text = ARM.replace("</robot>", '<link name="eye"/>' + urdfs.joint("e", "fixed", "tool", "eye") + "</robot>")
+    (chosen,) = differences(lambda e: e.reexpress("mount", X), text)
+    assert isinstance(chosen, Moved)
+    assert (chosen.kind, chosen.kept) == ("frame-re-expressed", True)
+    assert chosen.move.shift == pytest.approx(SHIFT, abs=1e-12)
+    assert chosen.move.turn == pytest.approx(TURN, abs=1e-12)
+
+
+def test_what_follows_another_joint_is_displaced_as_seen_from_its_parent() -> None:
+    def bracket(e: Edited) -> None:
+        e.insert("bracket", "fixed", "slide", pose(SHIFT, turn(TURN / np.linalg.norm(TURN), np.linalg.norm(TURN))))
+
+    def other(e: Edited) -> None:
+        e.joint("slide").set("type", "revolute")
+        e.set_origin("slide", displaced(e.origin("slide")))
+
+    for edit, kind in ((bracket, "joint-added"), (other, "type")):
+        (follows,) = differences(edit)
+        assert isinstance(follows, Followed)
+        assert follows.carried is not None
+        assert (follows.kind, follows.carried.frame) == (kind, "l2")
+        assert follows.carried.turn == pytest.approx(TURN, abs=1e-12)
+        assert follows.size == pytest.approx((follows.carried.length, np.linalg.norm(TURN)))
+
+
+def test_what_follows_a_removed_joint_may_stay_or_fall_back() -> None:
+    """Without the slide j4 stays where it was at zero, or keeps its origin, which then is one in l2."""
+    (stays,) = differences(lambda e: e.remove("slide"))
+    assert isinstance(stays, Followed)
+    assert (stays.kind, stays.carried, stays.size) == ("joint-removed", None, (0.0, 0.0))
+
+    def fall(e: Edited) -> None:
+        origin, was = e.origin("j4"), e.origin("slide")
+        e.remove("slide")
+        e.set_origin("j4", origin)
+        assert np.linalg.norm(was[:3, 3]) > 0.4
+
+    (falls,) = differences(fall)
+    assert isinstance(falls, Followed)
+    assert falls.carried is not None
+    T = np.linalg.inv(Edited(ARM).origin("slide"))
+    assert (falls.kind, falls.carried.frame) == ("joint-removed", "l2")
+    assert falls.carried.shift == pytest.approx(T[:3, 3], abs=1e-12)
+    assert expm(np.cross(np.eye(3), falls.carried.turn)) == pytest.approx(T[:3, :3], abs=1e-12)
+
+
+# ------------------------------------------------------------------------------------------- limits, numbers
+
+
+@pytest.mark.parametrize(
+    ("new", "word"),
+    [
+        ((-2.5, 2.0), "widened"),
+        ((-2.0, 2.5), "widened"),
+        ((-2.5, 2.5), "widened"),
+        ((-1.5, 2.0), "narrowed"),
+        ((-2.0, 1.5), "narrowed"),
+        ((-1.5, 1.5), "narrowed"),
+        ((-1.5, 2.5), "changed"),
+        ((-2.5, 1.5), "changed"),
+    ],
+)
+def test_limits_widen_narrow_or_change(new: tuple[float, float], word: str) -> None:
+    (limits,) = differences(lambda e: e.set_limits("j1", *new))
+    assert isinstance(limits, LimitsChanged)
+    assert (limits.old, limits.new, limits.size) == ((-2.0, 2.0), new, (0.0, 0.5))
+    e = Edited(ARM)
+    e.set_limits("j1", *new)
+    (change,) = ps.diff(urdfs.load(ARM), urdfs.load(e.text)).changes
+    assert f" {word} from " in change.words
+
+
+@pytest.mark.parametrize(("old", "new"), [(0.1, math.nextafter(0.1, 1.0)), (1.0, 1.0 + 2.0**-52), (1e3, 1e3 + 1e-10)])
+def test_any_two_numbers_are_told_apart(old: float, new: float) -> None:
+    texts = told_apart(old, new)
+    assert texts[0] != texts[1]
+    assert told_apart(new, old) == texts[::-1]
+    assert told_apart(old, old) == (f"{old:.6g}",) * 2
+    assert told_apart(old, 2 * old) == (f"{old:.6g}", f"{2 * old:.6g}")
+
+
+# --------------------------------------------------------------------------------------- how far tips come apart
+
+
+def tilted(lower: float, upper: float, tilt: float) -> Robot:
+    """A tip 1 m from an axis that is tilted about x; with it, it is displaced by |(exp(R z q) - exp(z q)) x|."""
+    joint = urdfs.joint(
+        "j", "revolute", "base", "l", axis=f"0 {-math.sin(tilt)} {math.cos(tilt)}", limits=(lower, upper)
+    )
+    return urdfs.load(urdfs.robot(joint, urdfs.joint("m", "fixed", "l", "tool", xyz="1 0 0"), links="base l tool"))
+
+
+def apart_at(q: float, tilt: float) -> float:
+    """By the matrix exponential."""
+    hats = [np.cross(np.eye(3), np.array(w)) for w in ((0.0, 0.0, 1.0), (0.0, -math.sin(tilt), math.cos(tilt)))]
+    return float(np.linalg.norm((expm(hats[0] * q) - expm(hats[1] * q))[:, 0]))
+
+
+@pytest.mark.parametrize(
+    ("limits_a", "limits_b", "farthest"),
+    [
+        ((-2.0, 0.8), (-0.3, 2.0), 0.8),
+        ((-0.3, 2.0), (-2.0, 0.8), 0.8),
+        ((-0.9, 0.2), (-2.0, 2.0), -0.9),
+        ((-2.0, 2.0), (-0.9, 0.2), -0.9),
+        ((0.1, 0.6), (0.7, 0.9), 0.6),  # none in common: those of a
+    ],
+)
+def test_tips_are_compared_within_the_limits_of_both(
+    limits_a: tuple[float, float], limits_b: tuple[float, float], farthest: float
+) -> None:
+    """The displacement grows with |q|, up to the end of the range that both robots have."""
+    found = ps.diff(tilted(*limits_a, 0.0), tilted(*limits_b, 0.1)).displacement
+    assert found is not None
+    assert found.length_at.q == pytest.approx({"j": farthest})
+    assert found.length == pytest.approx(apart_at(farthest, 0.1))
+
+
+def test_the_farther_tip_is_told_for_length_and_angle() -> None:
+    """Two tips on one base: one is moved by 3 mm, the other one turned by 0.1 rad."""
+    joints = [urdfs.joint(name, "revolute", "base", f"tip_{name}", xyz=f"{x} 0 0") for x, name in enumerate("ab")]
+    e = Edited(urdfs.robot(*joints, links="base tip_a tip_b"))
+    a = urdfs.load(e.text)
+    e.move("a", pose((0.0, 0.0, 0.003)))
+    e.move("b", pose(R=turn("x", 0.1)))
+    found = ps.diff(a, urdfs.load(e.text)).displacement
+    assert found is not None
+    assert (found.length_at.frame, found.angle_at.frame) == ("tip_a", "tip_b")
+    assert (found.length, found.angle) == (pytest.approx(0.003), pytest.approx(0.1))
+    assert set(found.length_at.q) == {"a"}
+    assert set(found.angle_at.q) == {"b"}
+
+
+def test_fewer_configurations_for_many_tips(monkeypatch: pytest.MonkeyPatch) -> None:
+    counts = []
+    original = distance.configurations
+
+    def counted(robot: Robot, samples: int, seed: int) -> object:
+        counts.append(samples)
+        return original(robot, samples, seed)
+
+    monkeypatch.setattr(distance, "configurations", counted)
+    for n in (1, 20, 300):
+        joints = (urdfs.joint(f"j{i}", "fixed", "base", f"l{i}") for i in range(n))
+        robot = urdfs.load(urdfs.robot(*joints, links=" ".join(["base", *(f"l{i}" for i in range(n))])))
+        assert ps.diff(robot, robot).same
+    assert counts == [2000, 1000, 100]
+
+
+# --------------------------------------------------------------------------------------------- large robots
+
+
+def star(n: int, xyz: str = "0.1 0 0") -> Robot:
+    joints = (urdfs.joint(f"j{i}", "revolute", "hub", f"l{i}", xyz=xyz) for i in range(n))
+    return urdfs.load(urdfs.robot(*joints, links=" ".join(["hub", *(f"l{i}" for i in range(n))])))
+
+
+def test_each_robot_is_asked_once_for_all_its_tips(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What makes a star of ten thousand links a matter of seconds: no tip is asked for on its own."""
+    asked = []
+    poses = ps.PoE.poses
+    monkeypatch.setattr(ps.PoE, "poses", lambda self, q, frames: asked.append(len(frames)) or poses(self, q, frames))
+    monkeypatch.setattr(ps.PoE, "fk", pytest.fail)
+    assert not ps.diff(star(60), star(60, "0.1 0 0.1")).same
+    assert asked == [60, 60]
+
+
+@pytest.mark.slow
+def test_ten_thousand_links() -> None:
+    a = star(10_000)
+    assert ps.diff(a, a).same
+    assert len(ps.diff(a, star(10_000, "0.2 0 0")).changes) == 10_000
+    assert len(ps.diff(a, star(9_000)).changes) == 1_000
+
+
+def test_too_many_changes_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten joints and ten tips, displaced in one way beside none: 40 things to look at."""
+    a, b = star(10), star(10, "0.2 0 0")
+    monkeypatch.setattr(walk, "MOST", 40)
+    assert len(ps.diff(a, b).changes) == 10
+    monkeypatch.setattr(walk, "MOST", 39)
+    with pytest.raises(InputError) as caught:
+        ps.diff(a, b)
+    assert caught.value.code == "too-many-changes"
+    assert "20 joints and tips are displaced in 2 ways" in str(caught.value)
+
+
+# ------------------------------------------------------------------------------------------------- matching
+
+
+def matched(a: str, b: str) -> dict[str, str]:
+    return dict(matching.match(urdfs.load(a).description, urdfs.load(b).description).joints)
+
+
+def test_joints_are_matched_by_name_child_stand_and_type() -> None:
+    def siblings(*names: str, kinds: tuple[str, ...] = ("revolute",) * 3, at: str = "123") -> str:
+        joints = [
+            urdfs.joint(name, kind, "base", name.upper(), xyz=f"{x} 0 0")
+            for name, kind, x in zip(names, kinds, at, strict=True)
+        ]
+        return urdfs.robot(*joints, links=" ".join(["base", *(name.upper() for name in names)]))
+
+    a = siblings("a", "b", "c")
+    assert matched(a, siblings("c", "b", "a")) == {name: name for name in "abc"}, "by name, wherever they stand"
+    child = a.replace('joint name="a"', 'joint name="x"')
+    assert matched(a, child) == {"a": "x", "b": "b", "c": "c"}, "by the child's name"
+    assert matched(a, siblings("x", "y", "z", at="312")) == {"a": "y", "b": "z", "c": "x"}, "by how they stand"
+    kinds = ("continuous", "revolute", "prismatic")
+    a = siblings("a", "b", "c", kinds=kinds)
+    assert matched(a, siblings("x", "y", "z", kinds=kinds[::-1], at="456")) == {"a": "z", "b": "y", "c": "x"}, "by type"
+    others = siblings("x", "y", "z", kinds=("continuous", "continuous", "prismatic"), at="456")
+    assert matched(a, others) == {}, "not where the types are others"
+
+
+@pytest.mark.parametrize(("inserted", "seen"), [(1, True), (49, True), (60, False)])
+def test_a_joint_is_looked_for_behind_others_in_a_row(inserted: int, seen: bool) -> None:
+    """Behind more than fifty it is found all the same, but as one that hangs elsewhere."""
+    a = urdfs.chain(2)
+    e = Edited(a)
+    for i in range(inserted):
+        e.insert(f"bracket{i}", "fixed", "j2", pose((0.01, 0.0, 0.0)))
+    pairs = matching.match(urdfs.load(a).description, urdfs.load(e.text).description).pairs
+    (pair,) = (pair for pair in pairs if pair.b is not None and pair.b.name == "j2")
+    assert pair.a is not None
+    assert pair.elsewhere is not seen
+    e = Edited(e.text)
+    pairs = matching.match(urdfs.load(e.text).description, urdfs.load(a).description).pairs
+    (pair,) = (pair for pair in pairs if pair.a is not None and pair.a.name == "j2")
+    assert pair.b is not None
+    assert pair.elsewhere is not seen
+
+
+def test_no_end_of_looking_through(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where too many joints stand beside added ones, what is behind these is found as hanging elsewhere."""
+    e = Edited(urdfs.chain(2))
+    a = urdfs.load(e.text).description
+    e.insert("bracket", "fixed", "j2", pose((0.01, 0.0, 0.0)))
+    b = urdfs.load(e.text).description
+    for limit, elsewhere in ((100, False), (0, True)):
+        monkeypatch.setattr(matching, "LOOKED_THROUGH", limit)
+        (pair,) = (pair for pair in matching.match(a, b).pairs if pair.named.name == "j2")
+        assert pair.elsewhere is elsewhere
