@@ -55,11 +55,19 @@ class PoE(CheckedEngine):
         """The joints as yourdfpy read them, by name."""
         return {joint.name: _view(joint) for joint in self._robot.description.joints}
 
+    def poses(self, q: FloatArray, frames: Sequence[str]) -> FloatArray:
+        """Poses of F frames at a flat batch (N, nq), sharing the way down the tree: shape (N, F, 4, 4); see `fk`."""
+        return self._poses_of(self._coordinates(q)[0], [self._robot.frame(frame) for frame in frames])
+
     def _poses(self, q: FloatArray, frame: str) -> FloatArray:
-        out = np.empty((len(q), 4, 4))
+        return self._poses_of(q, [frame])[:, 0]
+
+    def _poses_of(self, q: FloatArray, frames: Sequence[str]) -> FloatArray:
+        out = np.empty((len(q), len(frames), 4, 4))
         for block in _blocks(len(q)):
             chain = _Chain(self._robot, self._factors, q[block])
-            _store_pose(out[block], *chain.pose(frame))
+            for i, frame in enumerate(frames):
+                _store_pose(out[block, i], *chain.pose(frame))
         return out
 
     def _jacobians(self, q: FloatArray, frame: str, kind: JacobianKind) -> FloatArray:
@@ -82,28 +90,6 @@ class PoE(CheckedEngine):
         for block in _blocks(len(q)):
             chain = _Chain(self._robot, self._factors, q[block], qd[block])
             store(out[block], chain.derivative(frame, kind))
-        return out
-
-    def poses(self, q: FloatArray, frames: Sequence[str]) -> FloatArray:
-        """Poses of several frames at a flat batch, sharing the way down the tree.
-
-        Args:
-            q: coordinates, shape (N, nq).
-            frames: names of F links.
-
-        Returns:
-            ``T_base_frame``, shape (N, F, 4, 4).
-
-        Raises:
-            InputError: if ``q`` has another shape or holds what is no finite number.
-            UnknownNameError: if there is no such frame.
-        """
-        q, _ = self._coordinates(q)
-        out = np.empty((len(q), len(frames), 4, 4))
-        for block in _blocks(len(q)):
-            chain = _Chain(self._robot, self._factors, q[block])
-            for i, frame in enumerate(frames):
-                _store_pose(out[block, i], *chain.pose(self._robot.frame(frame)))
         return out
 
     def answers(self, q: FloatArray, qd: FloatArray, frames: Sequence[str]) -> Answers:
