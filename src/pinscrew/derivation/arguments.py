@@ -30,6 +30,9 @@ Loader: TypeAlias = Callable[[Mapping[str, str]], Robot]
 Sample: TypeAlias = tuple[dict[str, Fraction], dict[str, Printed]]
 """Values of the arguments, and the joints printed with them."""
 
+MOST_ARGUMENTS: Final = 32
+"""Numbers among a file's arguments that are examined: each takes an evaluation of the file."""
+
 _POWERS: Final = (1, -1, 2, -2)
 _NEAR: Final = 1e-12
 
@@ -69,6 +72,9 @@ def recover(robot: Robot, tip: str, joints: Mapping[str, Printed], load: Loader)
     texts = {**catalogue.declared_arguments(path), **robot.description.arguments}
     base: dict[str, Fraction] = {}
     for name, text in texts.items():
+        if len(base) == MOST_ARGUMENTS:
+            found.numeric[name] = f"only the first {MOST_ARGUMENTS} numbers among the arguments are examined"
+            continue
         try:
             base[name] = Fraction(bounded(text))
         except (ValueError, ZeroDivisionError):

@@ -10,7 +10,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 import sympy as sp
 
-from pinscrew.derivation import normal_forms
+from pinscrew.derivation import normal_forms, reader
 from pinscrew.derivation.atoms import Atoms
 from pinscrew.derivation.chain import Elements, ScrewChain, Variable
 from pinscrew.derivation.exact import Snapped
@@ -273,18 +273,20 @@ class ClosedForms:
     def equal(self, a: Any, b: Any) -> bool:
         """Whether two expressions or matrices, polynomial in lengths, sines and cosines, are identically equal.
 
-        Their symbols may be one's own, such as ``sympy.Symbol("L3")``: a symbol is known by its name.
+        Each may be sympy's, a number, a text such as ``"L0 - s2*(L3 + theta3)"``, or a matrix or list of lists of
+        these. Symbols may be one's own, such as ``sympy.Symbol("L3")``: a symbol is known by its name.
 
         Both are brought to the normal form of `trig`, so the answer is exact, both ways (to 20 digits, where
         numbers are not `exact`).
 
         Raises:
+            InputError: if a text is no expression, or has a symbol that the closed forms have not.
             TypeError: if they are no such expressions.
         """
-        left, right = (sp.Matrix(x) if hasattr(x, "shape") else sp.Matrix([[sp.sympify(x)]]) for x in (a, b))
+        known = self.symbols
+        left, right = reader.matrix(a, known), reader.matrix(b, known)
         if left.shape != right.shape:
             return False
-        known = self.symbols
         difference = (left - right).xreplace({s: known.get(s.name, s) for s in (left - right).free_symbols})
         return not any(self.chain.algebra.read(x) for x in self.explicit(difference))
 

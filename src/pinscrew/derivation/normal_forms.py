@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cached_property
 from itertools import accumulate
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +18,17 @@ import numpy.typing as npt
 from pinscrew.derivation.chain import Elements, Moving, ScrewChain, cross
 from pinscrew.derivation.trig import Algebra, Element
 
-__all__ = ["NormalForms", "adjoint", "adjoint_inverse", "derivative", "hat", "inverse"]
+__all__ = ["GrowthError", "NormalForms", "adjoint", "adjoint_inverse", "derivative", "hat", "inverse"]
+
+
+MOST_TERMS: Final = 500
+"""Products of sines and cosines in one entry of a pose."""
+MOST_MONOMIALS: Final = 5000
+"""The same, with those of their coefficients, which are polynomials in lengths, counted."""
+
+
+class GrowthError(Exception):
+    """An entry has more terms than are of use to anyone; `run.derive` says so with the file's name."""
 
 
 class NormalForms:
@@ -38,8 +49,12 @@ class NormalForms:
 
     @cached_property
     def partial(self) -> tuple[Elements, ...]:
-        """e^{ξ̂1 θ1} … e^{ξ̂i θi}, n of shape (4, 4)."""
-        return tuple(accumulate(self.exponentials, np.matmul))
+        """e^{ξ̂1 θ1} … e^{ξ̂i θi}, n of shape (4, 4).
+
+        Raises:
+            GrowthError: if an entry grows beyond `MOST_TERMS`.
+        """
+        return tuple(accumulate(self.exponentials, lambda before, e: _bounded(before @ e)))
 
     @cached_property
     def before(self) -> tuple[Elements, ...]:
@@ -167,6 +182,19 @@ class NormalForms:
     def _turn(self, joint: Moving, *, back: bool) -> Elements:
         R = self.exponentials[self._joints.index(joint)][:3, :3]
         return R.T if back else R
+
+
+def _bounded(elements: Elements) -> Elements:
+    """The elements, refused where one is longer than anyone can use.
+
+    Each joint whose axis is neither parallel nor perpendicular to the last triples the terms, for R = I + s ω̂ + (1 -
+    c) ω̂² has three: five such joints give 3⁵ = 243, six 729, eight 6561, for each of twelve entries.
+    """
+    terms = max(len(element.terms) for element in elements.flat)
+    monomials = max(sum(map(len, element.terms.values())) for element in elements.flat)
+    if terms > MOST_TERMS or monomials > MOST_MONOMIALS:
+        raise GrowthError(f"an entry of the pose would have {max(terms, monomials)} terms")
+    return elements
 
 
 def derivative(elements: Elements, joint: Moving) -> Elements:

@@ -13,7 +13,8 @@ from pinscrew.derivation import arguments, exact, reading
 from pinscrew.derivation.chain import Variable, compose
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.forms import Convention
-from pinscrew.ground.errors import InputError
+from pinscrew.derivation.normal_forms import GrowthError
+from pinscrew.ground.errors import InputError, UnsupportedError
 from pinscrew.ground.escaping_code import Language, identifier
 from pinscrew.robot.loading import RobotLike, load, robot_of
 from pinscrew.robot.robot import Robot
@@ -75,7 +76,8 @@ def derive(
 
     Raises:
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
-        UnsupportedError: if more than 8 joints, or one that is floating or planar, move the frame.
+        UnsupportedError: if more than 8 joints, or one that is floating or planar, move the frame, or their axes are
+            at such angles that an entry of the pose has more than `normal_forms.MOST_TERMS` terms.
         InputError: if a symbol collides with another, or an option is none.
     """
     for option, known, what in ((names, Naming, "names"), (convention, Convention, "convention")):
@@ -105,7 +107,7 @@ def derive(
     _check_names(robot, list(lengths), list(variables.values()))
     path = [joint.name for joint in reversed(list(robot.description.path(tip))) if joint.name in joints]
     used = {symbol for joint in geometry for symbol in joint.p.free_symbols | joint.offset.free_symbols}
-    return Derivation(
+    derivation = Derivation(
         robot=robot,
         tip=tip,
         lengths=lengths,
@@ -116,6 +118,12 @@ def derive(
         geometry=geometry,
         variables=tuple(variables.values()),
     )
+    try:
+        _ = derivation.normal.partial  # what is too long to be of use is refused here, not in the middle of a report
+    except GrowthError as error:
+        remedy = "name a tip nearer to the base, or give exact angles (an axis of 0 0 1, not of 0.001 0 1)"
+        raise UnsupportedError("derive-growth", str(error), file=robot.description.file, remedy=remedy) from None
+    return derivation
 
 
 def _reload(robot: Robot) -> arguments.Loader:

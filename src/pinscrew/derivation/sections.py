@@ -85,9 +85,11 @@ class _Writer:
         """``head = matrix``, the entries one by one where it is wide."""
         if not self.set.is_wide(matrix):
             return [Formula((*head, self.set.matrix(matrix)))]
-        first, *entries = self.set.entries(name, matrix)
-        blocks: list[Block] = [Formula((*head, first)), Paragraph("with the entries")]
-        return blocks + [Formula(tuple(entry.split(" = ", 1))) for entry in entries]
+        placeholders, entries, sums = self.set.entries(name, matrix)
+        blocks: list[Block] = [Formula((*head, placeholders)), Paragraph("with the entries"), *map(Formula, entries)]
+        if sums:
+            blocks += [Paragraph("where the long sums have names of their own:"), *map(Formula, sums)]
+        return blocks
 
     def cite(self, topic: str) -> str:
         book = "MLS" if self.d.convention == "mls" else "LP"

@@ -9,6 +9,7 @@ from typing import Any, Final
 import sympy as sp
 
 from pinscrew.derivation.forms import ClosedForms
+from pinscrew.derivation.subexpressions import Subexpressions
 
 __all__ = ["Typesetter", "escape"]
 
@@ -19,6 +20,8 @@ _DECIMALS: Final = 9
 _ADD, _PRODUCT, _UNIT = 0, 1, 2
 WIDEST: Final = 150
 """Rough width (characters) of a matrix beyond which its entries are listed one by one."""
+LONGEST_CELL: Final = 12
+"""Rough width of an entry that is not listed by itself."""
 
 
 def escape(text: str) -> str:
@@ -39,6 +42,9 @@ class Typesetter:
             self._rank[variable.symbol] = 50 + i
         self.used: set[sp.Symbol] = set()
         self._rates = {variable.rate: i for i, variable in enumerate(derivation.variables)}
+        self._texts: dict[sp.Expr, tuple[str, int]] = {}
+        self._sums = Subexpressions(self._width, [str(s) for s in self._rank])
+        self._shown = 0
 
     def symbol(self, symbol: sp.Symbol) -> str:
         """A symbol, which is noted in `used`."""
@@ -56,8 +62,15 @@ class Typesetter:
         """An expression."""
         return self._set(sp.sympify(expression))[0]
 
-    def _set(self, e: sp.Expr) -> tuple[str, int]:  # noqa: PLR0911 (one for each kind of expression)
+    def _set(self, e: sp.Expr) -> tuple[str, int]:
         """The LaTeX of an expression, and how it binds."""
+        if e.is_Add or e.is_Mul:
+            if e not in self._texts:
+                self._texts[e] = self._compound(e)
+            return self._texts[e]
+        return self._compound(e)
+
+    def _compound(self, e: sp.Expr) -> tuple[str, int]:  # noqa: PLR0911 (one for each kind of expression)
         if e.is_Add and _content(e) != 1:
             return self._product(e)
         if e.is_Add:
@@ -90,9 +103,17 @@ class Typesetter:
         return "".join(texts[:1] + [f" - {text[1:]}" if text.startswith("-") else f" + {text}" for text in texts[1:]])
 
     def _term_key(self, e: sp.Expr) -> tuple[Any, ...]:
-        atoms = sorted(self._d.atoms.order[s] for s in e.free_symbols if s in self._d.atoms.order)
-        lengths = sorted(self._rank.get(s, 40) for s in e.free_symbols if s not in self._d.atoms.order)
+        symbols = self._within(e)
+        atoms = sorted(self._d.atoms.order[s] for s in symbols if s in self._d.atoms.order)
+        lengths = sorted(self._rank.get(s, 40) for s in symbols if s not in self._d.atoms.order)
         return bool(atoms), atoms, lengths, str(e)
+
+    def _within(self, e: sp.Expr) -> set[sp.Symbol]:
+        """The symbols of an expression, for the name of a sum those of the sum."""
+        symbols: set[sp.Symbol] = set()
+        for symbol in e.free_symbols:
+            symbols |= self._within(self._sums.meaning[symbol]) if symbol in self._sums.meaning else {symbol}
+        return symbols
 
     def _product(self, e: sp.Expr) -> tuple[str, int]:
         r"""A product: one sign, one number, the factors, and what divides them.
@@ -129,10 +150,10 @@ class Typesetter:
             return 4, self._d.atoms.order[base], ""
         if base in self._rates:
             return 6, (self._rates[base],), ""
-        if base.is_Symbol:
+        if base.is_Symbol and base not in self._sums.meaning:
             return 2, (self._rank.get(base, 40),), str(base)
-        rates = any(s in self._rates for s in e.free_symbols)
-        atoms = any(s in self._d.atoms.order for s in e.free_symbols)
+        rates = any(s in self._rates for s in self._within(e))
+        atoms = any(s in self._d.atoms.order for s in self._within(e))
         return (7 if rates else 5 if atoms else 3), (len(e.args),), str(e)
 
     def matrix(self, matrix: Any) -> str:
@@ -145,20 +166,29 @@ class Typesetter:
         widths = [max(len(_plain(self(x))) for x in matrix.col(j)) for j in range(matrix.cols)]
         return sum(widths) > WIDEST
 
-    def entries(self, name: str, matrix: Any) -> list[str]:
-        """The entries that are not plain numbers one by one, and the matrix with placeholders for them."""
+    def _width(self, expression: sp.Expr) -> int:
+        """About how many characters are seen of a formula."""
+        return len(_plain(self(expression)))
+
+    def entries(self, name: str, matrix: Any) -> tuple[str, list[tuple[str, str]], list[tuple[str, str]]]:
+        """A wide matrix with placeholders for its long entries, these entries, and the sums that have names in them.
+
+        Both lists are of left and right sides. Of the sums there are those that no list had before.
+        """
         rows, listed = [], []
         for i in range(matrix.rows):
             cells = []
             for j in range(matrix.cols):
-                shown = self(matrix[i, j])
-                if len(_plain(shown)) > 12:
-                    cell = f"{name}_{{{i + 1}{j + 1}}}"
-                    listed.append(f"{cell} = {shown}")
-                    shown = cell
-                cells.append(shown)
+                if self._width(matrix[i, j]) > LONGEST_CELL:
+                    cells.append(f"{name}_{{{i + 1}{j + 1}}}")
+                    listed.append((cells[-1], self(self._sums.shortened(matrix[i, j]))))
+                else:
+                    cells.append(self(matrix[i, j]))
             rows.append(" & ".join(cells))
-        return [r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}", *listed]
+        new = list(self._sums.meaning.items())[self._shown :]
+        self._shown += len(new)
+        sums = [(self(symbol), self(meaning)) for symbol, meaning in new]
+        return r"\begin{bmatrix} " + r" \\ ".join(rows) + r" \end{bmatrix}", listed, sums
 
 
 def _bracketed(text: str) -> str:
