@@ -12,6 +12,7 @@ import pinscrew as ps
 import urdfs
 from broken import ROBOT, edited, motion, pair, with_motions
 from pinscrew.ground.typing import KINDS, FloatArray
+from pinscrew.verification import structure
 from pinscrew.verification.report import Report
 from pinscrew.verification.run import verify
 
@@ -144,6 +145,14 @@ def test_wrong_file(fault: Fault, side: int) -> None:
     report = run(pair(side, edited(*fault.edits)))
     assert failed(report) == fault.fails
     assert report.diagnosis == (f"joint {fault.joint!r}: {fault.words[side]}",)
+
+
+@SIDES
+def test_limits_are_compared_to_rounding(side: int) -> None:
+    """The parsers read one text, so nothing but the last bit may differ."""
+    for written, same in (("-2.0000000000000004", True), ("-2.000000000001", False), ("-2.001", False)):
+        text = ('0.6 0.8"/><limit lower="-2.0"', f'0.6 0.8"/><limit lower="{written}"')
+        assert (structure.compare(*pair(side, edited(text))) == ()) is same, written
 
 
 @SIDES

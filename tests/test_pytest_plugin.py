@@ -447,6 +447,25 @@ def test_lock(project: pytest.Pytester) -> None:
     done.stdout.fnmatch_lines([f"*robots?arm.urdf:{ELBOW_LINE}: *"])
 
 
+def test_notes_fail_where_the_settings_or_the_lock_say_so(project: pytest.Pytester) -> None:
+    """``fail_on`` of the settings counts where the lock is silent, and the lock's own where it is not."""
+    file = project.path / "robots" / "arm.urdf"
+    robot = ps.load(file)
+    write(project, "robots/arm.urdf.lock", lockfile.text(robot))
+    file.write_text(ARM.replace('"elbow"', '"ellbow"'), encoding="utf-8")
+    run(project, "-k", "lock").assert_outcomes(passed=1)
+    for names, fails in (('["velocity"]', False), ('["velocity", "names"]', True)):
+        configure(project, f"[tool.pinscrew]\nfail_on = {names}\n")
+        done = run(project, "-k", "lock")
+        done.assert_outcomes(passed=not fails, failed=fails)
+    done.stdout.fnmatch_lines(["*; fails on names*", "FAILED robots/arm.urdf::lock - joint 'ellbow': *"])
+    write(project, "robots/arm.urdf.lock", lockfile.text(robot, fail_on=["velocity"]))
+    run(project, "-k", "lock").assert_outcomes(passed=1)
+    write(project, "robots/arm.urdf.lock", lockfile.text(robot, fail_on=["names"]))
+    configure(project, "[tool.pinscrew]\n")
+    run(project, "-k", "lock").assert_outcomes(failed=1)
+
+
 def test_a_broken_lock(project: pytest.Pytester) -> None:
     write(project, "robots/arm.urdf.lock", "{")
     done = run(project, "-k", "lock")

@@ -118,6 +118,30 @@ def test_arguments_tip_and_base_are_kept(here: Path) -> None:
     assert "of its own" in refused("lock", lock.name, "l1:=0.4")
 
 
+WAYS = {
+    "arguments": ("slim.urdf.xacro", ("l1:=0.5",), "l1:=0.5"),
+    "tip": ("slim.urdf.xacro", ("--tip", "base"), "--tip base"),
+    "floating base": ("slim.urdf.xacro", ("--floating-base",), "--floating-base"),
+}
+
+
+@pytest.mark.usefixtures("here")
+@pytest.mark.parametrize(("file", "words", "told"), WAYS.values(), ids=WAYS)
+def test_a_lock_that_was_made_in_another_way_is_not_written_over(file: str, words: tuple[str, ...], told: str) -> None:
+    """Each way on its own, in both directions; made in the same way it is written."""
+    ok("lock", file, *words)
+    lock = Path(f"{file}.lock")
+    before = lock.read_text()
+    assert f"it was made with {told}, and not as" in refused("lock", file)
+    assert lock.read_text() == before
+    assert ok("lock", file, *words).out == f"{lock}: unchanged\n"
+    lock.unlink()
+    ok("lock", file)
+    assert "it was made with no arguments, and not as" in refused("lock", file, *words)
+    others = ("--tip", "tool") if words[0] == "--tip" else words
+    assert "and not as" in refused("lock", file, *others)
+
+
 def test_several_locks_of_one_file(here: Path) -> None:
     assert "two robots for the lock" in refused("lock", "slim.urdf.xacro", "slim.urdf.xacro", "l1:=0.5")
     (here / "locks").mkdir()

@@ -246,3 +246,11 @@ def test_one_line_for_each_thing() -> None:
     assert sum('"mimic": {"joint": "a", "multiplier": 0.5, "offset": 0.1}' in line for line in lines) == 1
     assert sum(re.fullmatch(r"        \[[^,]+(, [^,]+){3}\],?", line) is not None for line in lines) == 4 * 6
     assert f'"schema": "{content.SCHEMA}"' in lines[1]
+
+
+def test_equal_limits_are_limits(tmp_path: Path) -> None:
+    """A joint that may stand at one value only is none that is reversed."""
+    joint = urdfs.joint("a", "revolute", "base", "tool", limits=(0.5, 0.5))
+    path = tmp_path / "arm.urdf.lock"
+    path.write_text(lockfile.text(urdfs.load(urdfs.robot(joint, links="base tool"))))
+    assert lockfile.read(path).limits.tolist() == [[0.5, 0.5]]
