@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -184,6 +185,65 @@ def test_what_follows_a_removed_joint_may_stay_or_fall_back() -> None:
     assert (falls.kind, falls.carried.frame) == ("joint-removed", "l2")
     assert falls.carried.shift == pytest.approx(T[:3, 3], abs=1e-12)
     assert expm(np.cross(np.eye(3), falls.carried.turn)) == pytest.approx(T[:3, :3], abs=1e-12)
+
+
+def test_the_words_of_a_move_are_its_numbers() -> None:
+    """A turn about no axis by name has its unit vector, a shift its components in mm."""
+    (change,) = ps.diff(urdfs.load(ARM), urdfs.load(moved_text("mount"))).changes
+    words = re.search(r"turned by (\S+)° about \((.*?)\) and moved by \((.*?)\) mm, in the frame of 'l4'", change.words)
+    assert words is not None, change.words
+    assert float(words[1]) == pytest.approx(math.degrees(np.linalg.norm(TURN)), rel=1e-5)
+    assert numbers(words[2]) == pytest.approx(TURN / np.linalg.norm(TURN), rel=1e-5)
+    assert numbers(words[3]) == pytest.approx(SHIFT * 1e3, rel=1e-5)
+
+
+def moved_text(joint: str) -> str:
+    e = Edited(ARM)
+    move_origin(joint)(e)
+    return e.text
+
+
+def numbers(words: str) -> list[float]:
+    return [float(number) for number in words.split(",")]
+
+
+@pytest.mark.parametrize(("along", "words"), [(1e-3, "moved by 1 mm along y"), (-1e-3, "moved by -1 mm along y")])
+def test_the_words_of_a_move_along_an_axis_have_its_sign(along: float, words: str) -> None:
+    e = Edited(ARM)
+    T = e.origin("mount")
+    e.set_origin("mount", pose(T[:3, 3] + (0.0, along, 0.0), T[:3, :3]))
+    (change,) = ps.diff(urdfs.load(ARM), urdfs.load(e.text)).changes
+    assert f"tip frame 'tool' is {words}, in the frame of 'l4'" in change.words
+
+
+def test_joints_added_and_removed_are_told_with_the_link_that_they_lead_to() -> None:
+    e = Edited(ARM)
+    e.attach("new", "revolute", "l2", "hand", pose((0.1, 0.0, 0.0)))
+    a, b = urdfs.load(ARM), urdfs.load(e.text)
+    (added,), (removed,) = ps.diff(a, b).changes, ps.diff(b, a).changes
+    assert (added.kind, added.joint, added.link, added.line) == ("joint-added", "new", "hand", 1)
+    assert (removed.kind, removed.joint, removed.link, removed.line) == ("joint-removed", "new", "hand", None)
+    assert "(revolute) is added between links 'l2' and 'hand'" in added.words
+    assert "(revolute) is removed between links 'l2' and 'hand'" in removed.words
+
+
+def test_a_name_that_goes_to_another_joint_is_swapped() -> None:
+    """Matched by their child links, j1 is called j2, and j2 j3: code for j2 moves another joint."""
+    a = urdfs.chain(2)
+    b = a.replace('joint name="j2"', 'joint name="j3"').replace('joint name="j1"', 'joint name="j2"')
+    found = ps.diff(urdfs.load(a), urdfs.load(b))
+    assert [(change.kind, change.joint) for change in found.changes] == [
+        ("names-swapped", "j2"),
+        ("names-swapped", "j3"),
+    ]
+    assert ps.diff(urdfs.load(a), urdfs.load(a.replace('joint name="j1"', 'joint name="j9"'))).same
+
+
+@pytest.mark.parametrize("name", urdfs.ROBOTS)
+def test_nothing_differs_from_itself_without_any_tolerance(name: str) -> None:
+    robot = urdfs.load(urdfs.ROBOTS[name])
+    found = ps.diff(robot, robot, length=0.0, angle=0.0)
+    assert (found.changes, found.notes) == ((), ())
 
 
 # ------------------------------------------------------------------------------------------- limits, numbers

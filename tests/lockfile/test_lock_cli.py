@@ -155,6 +155,19 @@ def test_several_locks_of_one_file(here: Path) -> None:
     assert "--output takes one robot" in refused("lock", "arm.urdf", "slim.urdf.xacro", "--output", "x.urdf.lock")
 
 
+def test_the_last_line_counts_all_that_was_asked(here: Path) -> None:
+    """Of three locks one is the same, one moved, and one can't be read."""
+    for name in ("arm", "same", "bad"):
+        (here / f"{name}.urdf").write_text(urdfs.rotated())
+        ok("lock", f"{name}.urdf")
+    (here / "bad.urdf").unlink()
+    assert run("lock", "--check").out.splitlines()[-1] == "2 of 3 mechanisms are those of their locks"
+    move(here / "arm.urdf")
+    done = run("lock", "--check")
+    assert done.status == 1
+    assert done.out.splitlines()[-1] == "1 of 3 mechanisms moved; if that is meant: pinscrew lock arm.urdf.lock"
+
+
 def test_a_broken_lock_is_written_anew(here: Path) -> None:
     ok("lock", "arm.urdf")
     before = (here / "arm.urdf.lock").read_text()

@@ -20,6 +20,7 @@ from pinscrew import lockfile
 from pinscrew.changes.run import diff
 from pinscrew.description import catalogue
 from pinscrew.ground.errors import MissingExtraError, PinscrewWarning
+from pinscrew.lockfile import writing
 
 BUNDLED = [entry.name for entry in catalogue.bundled()]
 EXAMPLES = ("panda", "ur5_robot", "talos_reduced", "romeo", "so100", "tiago", "hyq_no_sensors", "allegro_right_hand")
@@ -244,3 +245,22 @@ def test_names_in_any_script(tmp_path: Path) -> None:
     text = lockfile.text(robot)
     assert "基座" in text
     assert text.isprintable() or set(filter(lambda c: not c.isprintable(), text)) == {"\n"}
+
+
+def test_axes_come_back(tmp_path: Path) -> None:
+    """Of every type of joint, also of those that have no screw."""
+    for text in urdfs.ROBOTS.values():
+        robot = urdfs.load(text)
+        for joint, locked in zip(robot.description.joints, read_back(robot, tmp_path).description.joints, strict=True):
+            assert locked.axis == pytest.approx(joint.axis, abs=1e-11), joint.type
+
+
+@pytest.mark.parametrize(("size", "grid"), [(5.0, 1e-12), (50.0, 1e-11), (1.0, 1e-13), (0.2, 1e-13)])
+def test_lengths_are_rounded_13_digits_below_the_size(size: float, grid: float) -> None:
+    """Less than half a step of the grid is written as zero, more as a step."""
+    for part, written in ((0.4, 0.0), (0.6, 1.0)):
+        text = urdfs.robot(
+            urdfs.joint("j", "revolute", "base", "tool", xyz=f"{size} {part * grid!r} 0"), links="base tool"
+        )
+        (joint,) = writing.content(urdfs.load(text)).joints
+        assert joint.home[1, 3] == pytest.approx(written * grid, rel=1e-9, abs=0.0)

@@ -48,7 +48,7 @@ class Measured:
     Attributes:
         differences: down the tree, those of the robot as a whole at the end.
         displacement: how far the tips come apart; None where that can't be asked.
-        tolerance: within what tips stand where they stood: what was allowed, or where that is less what rounding does.
+        tolerance: within what things stand where they stood: what was allowed, but at least what rounding does.
     """
 
     differences: tuple[Difference, ...]
@@ -62,18 +62,18 @@ def measure(a: Robot, b: Robot, tolerance: Tolerance) -> Measured:
     poses_a, poses_b = Poses(a.description), Poses(b.description)
     joints = _Joints(a, b, matching, tolerance)
     tips = _tips(matching, poses_a, poses_b)
-    features = Features(poses_a, poses_b, matching.pairs, tips, joints.opposite(), tolerance)
+    size = max(poses_a.size, poses_b.size)
+    computed = Tolerance(max(tolerance.length, ROUNDING * size), max(tolerance.angle, ROUNDING))
+    features = Features(poses_a, poses_b, matching.pairs, tips, joints.opposite(), computed)
     differences: list[Difference] = []
     for pair, crossing in zip(matching.pairs, walk(matching.pairs, poses_a, poses_b, features), strict=True):
-        placing = Placing(pair, crossing, poses_a, poses_b, tolerance)
+        placing = Placing(pair, crossing, poses_a, poses_b, computed)
         if pair.a is None or pair.b is None:
             differences.append(placing.one_sided())
         else:
             differences += joints.named(pair, pair.a, pair.b)
             differences += joints.both(pair, pair.a, pair.b, placing.both(pair.a, pair.b))
     differences += _whole(a, b, matching)
-    size = max(poses_a.size, poses_b.size)
-    computed = Tolerance(max(tolerance.length, ROUNDING * size), max(tolerance.angle, ROUNDING))
     places = columns(a, b, matching.joints)
     displacement = None if places is None else largest(a, b, places, [(x, y) for x, y, _ in tips])
     apart = displacement is not None and not displacement.within(computed)

@@ -101,7 +101,7 @@ class ChangesData:
             common tip.
         file: b's file, to which the changes' lines belong.
         fail_on: what of the notes is to fail: names of `pinscrew.changes.gates.GATES`.
-        tolerance: within what tips stand where they stood: what was allowed, or where that is less what rounding does.
+        tolerance: within what things stand where they stood: what was allowed, but at least what rounding does.
     """
 
     a: str

@@ -45,9 +45,8 @@ def diff(
     for name, value in (("length", length), ("angle", angle)):
         if not 0.0 <= value < math.inf:
             raise InputError("tolerance", f"{name} = {value} is no tolerance", remedy="give 0 or a positive number")
-    tolerance = Tolerance(length, angle)
-    measured = measure(a, b, tolerance)
-    words = [(difference.kept, worded(difference, tolerance)) for difference in measured.differences]
+    measured = measure(a, b, Tolerance(length, angle))
+    words = [(difference.kept, worded(difference, measured.tolerance)) for difference in measured.differences]
     return Changes(
         a.name,
         b.name,

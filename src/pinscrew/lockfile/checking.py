@@ -87,8 +87,8 @@ def reload(
     lock: Lock,
     *,
     source: str | Path | None = None,
-    packages: Mapping[str, str | Path] | None = None,
-    allow_outside: bool = False,
+    packages: Mapping[str, str | Path] | None,
+    allow_outside: bool,
 ) -> Robot:
     """The robot of a lock, read from its file as that is now; see `check`."""
     content = lock.content
