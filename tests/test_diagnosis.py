@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -231,6 +232,7 @@ def moved(joint: str, row: int, by: float) -> FloatArray:
     return twists
 
 
+TILT = "0.572958° (0.01 rad)"
 SCREWS = {
     "axis not normalised": (
         {"j2": {"twists": 1.5 * motion("j2").twists}},
@@ -257,6 +259,10 @@ SCREWS = {
             "its axis is moved by [1e-06, 0, 0] mm in the child's frame",
             "its axis is moved by [-1e-06, 0, 0] mm in the child's frame",
         ),
+    ),
+    "another direction and line": (
+        {"j1": {"twists": np.array([[0.0], [1e-3], [0.0], [math.sin(0.01)], [0.0], [math.cos(0.01)]])}},
+        (f"its axis is turned by {TILT}", f"its axis is turned by {TILT}"),
     ),
     "a pitch": (
         {"j1": {"twists": moved("j1", 2, 1e-3)}},

@@ -10,7 +10,7 @@ import pytest
 
 import pinscrew as ps
 import urdfs
-from broken import ROBOT, edited, pair
+from broken import ROBOT, Altered, edited, pair
 from pinscrew.description.catalogue import bundled
 from pinscrew.ground.errors import InputError, UnknownNameError
 from pinscrew.ground.typing import FloatArray
@@ -31,9 +31,13 @@ FIXED = 20
 
 
 def assert_agree(report: Report) -> None:
+    assert_agree_to(report, 1e-14)
+
+
+def assert_agree_to(report: Report, largest: float) -> None:
     assert report.ok, str(report)
     assert report.failed == report.diagnosis == ()
-    assert report.largest_difference < 1e-14
+    assert report.largest_difference < largest
 
 
 # ---------------------------------------------------------------------------------------------- agreement
@@ -144,6 +148,44 @@ def test_only_some_frames() -> None:
     assert report.frames == 1
     assert {check.place.frame for check in report.failed} == {"tool"}
     assert verify(ROBOT, 2, frames=ROBOT.frame_names[::-1]).ok
+
+
+def test_the_first_joint_is_named() -> None:
+    """Of a pose the joint above the frame is told, the first one too; of the base none."""
+    report = verify(ROBOT, 2, engines=pair(1, edited(('xyz="0 0 0.3"', 'xyz="0 0 0.31"'))), frames=["l1", "base"])
+    places = {check.name: check.place for check in report.failed}
+    assert (places["home poses"].frame, places["home poses"].joint) == ("l1", "j1")
+
+    def alter(answers: Any, _frames: Any, _q: Any) -> None:
+        answers.poses[..., 0, 3] += 1e-3
+
+    moved = Altered(ps.PoE(ROBOT), alter)
+    report = verify(ROBOT, 2, engines=(ps.PoE(ROBOT), moved), frames=["base"])
+    (place,) = {(check.place.frame, check.place.joint) for check in report.failed if check.name == "home poses"}
+    assert place == ("base", "")
+
+
+def test_differences_of_a_joint_that_turns_fast() -> None:
+    """A mimic that turns 30 times as far has its angle, and so its rounding, 30 times as large."""
+    joints = (
+        urdfs.joint("j", "revolute", "base", "mid", xyz="0.1 0 0.2", axis="0 1 0"),
+        urdfs.joint("k", "revolute", "mid", "tool", xyz="0.4 0 0", axis="0.6 0 0.8", mimic=("j", 30.0, 0.3)),
+        urdfs.joint("m", "fixed", "tool", "tip", xyz="0.5 0 0"),
+    )
+    report = verify(urdfs.load(urdfs.robot(*joints, links="base mid tool tip")), samples=20, tolerance=1e-10)
+    assert_agree_to(report, 1e-10)
+
+
+def test_fast_mimics_are_within_the_differences_tolerance() -> None:
+    """The step of a finite difference is so much the shorter as a coordinate moves joints faster: h = u^(1/3) / g."""
+    for gain in (1.0, 4.0):
+        joints = (
+            urdfs.joint("j", "revolute", "base", "mid", xyz="0.1 0 0.2", axis="0 1 0"),
+            urdfs.joint("k", "revolute", "mid", "tool", xyz="0.4 0 0", axis="0.6 0 0.8", mimic=("j", gain, 0.3)),
+            urdfs.joint("m", "fixed", "tool", "tip", xyz="0.5 0 0"),
+        )
+        report = verify(urdfs.load(urdfs.robot(*joints, links="base mid tool tip")), samples=20)
+        assert_agree_to(report, 1e-12)
 
 
 def test_unknown_frame() -> None:
@@ -268,6 +310,12 @@ def test_far_outside_is_far(robot: ps.Robot) -> None:
     bound = np.where(angles(robot), FAR_ANGLE, FAR_DISTANCE * max(1.0, robot.reach))[~quaternions(robot)]
     assert (abs(far) <= bound).all()
     assert (abs(far).max(axis=0, initial=0.0) > 0.9 * bound).all()
+
+
+def test_velocities_are_of_norm_one_and_of_either_sign() -> None:
+    where = configurations(ROBOT, 2000, 0)
+    assert np.linalg.norm(where.qd, axis=1) == pytest.approx(np.ones(len(where.q)))
+    assert abs(where.qd.mean(axis=0)).max() < 0.05
 
 
 def test_effective_limits() -> None:

@@ -4,9 +4,10 @@ Let u = 2⁻⁵³ be the unit of rounding and s the robot's size; a coordinate m
 g be the largest sum of multipliers. Every derivative of a pose by a coordinate brings at most a factor g (a
 rotation's entries and its lever arm stay within 1 and s), so the third is at most g³ s and the truncation of a
 central difference with step h is at most h² g³ s / 6. The pose itself is off by at most about 4 u s for each of the
-k joints on the way (measured: less than 1 u s), and an angle of size a by u a; the difference magnifies both by 1/h.
+k joints on the way (measured: less than 1 u s), and a coordinate of size a by u a, which turns joints by up to g u a;
+the difference magnifies both by 1/h.
 With h = u^(1/3) / g all are multiples of u^(2/3) g s, and the tolerance, s divided out, is
-u^(2/3) g (1/6 + 4 (k + 1) + a).
+u^(2/3) g (1/6 + 4 (k + 1) + g a).
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ def tolerance(robot: Robot, q: FloatArray) -> float:
     """What truncation and rounding may leave at configurations ``q``; the module's docstring derives it."""
     largest = float(abs(q[:, angles(robot)]).max(initial=0.0))
     joints = len(robot.mechanism.motions)
-    return float(UNIT ** (2 / 3) * _gain(robot) * (1 / 6 + 4 * (joints + 1) + largest))
+    gain = _gain(robot)
+    return float(UNIT ** (2 / 3) * gain * (1 / 6 + 4 * (joints + 1) + gain * largest))
 
 
 def compare_differences(engine: Engine, q: FloatArray, scales: FloatArray, frames: tuple[str, ...]) -> Worst:
