@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Callable
@@ -13,7 +14,7 @@ from scipy.linalg import expm
 
 import pinscrew as ps
 import urdfs
-from pinscrew.changes import distance, matching, measuring, walk
+from pinscrew.changes import distance, geometry, matching, measuring, walk
 from pinscrew.changes.differences import AxisMoved, CarriedMoved, Followed, LimitsChanged, Moved, ZeroShifted
 from pinscrew.changes.outcome import Tolerance
 from pinscrew.changes.wording import told_apart
@@ -147,6 +148,42 @@ def test_a_link_whose_frame_alone_moved_is_seen_from_itself() -> None:
     assert (chosen.kind, chosen.kept) == ("frame-re-expressed", True)
     assert chosen.move.shift == pytest.approx(SHIFT, abs=1e-12)
     assert chosen.move.turn == pytest.approx(TURN, abs=1e-12)
+
+
+@pytest.mark.parametrize("eye_in", ["a", "b"])
+def test_a_tip_of_one_robot_counts_where_the_other_has_something_below(eye_in: str) -> None:
+    """The tool is moved by X in its own frame, and the eye, which one of the two has on it, is where it was."""
+    X = pose(SHIFT, turn(TURN / np.linalg.norm(TURN), float(np.linalg.norm(TURN))))
+    a, b = Edited(ARM), Edited(ARM)
+    (a if eye_in == "a" else b).attach("eye_joint", "fixed", "tool", "eye", pose((0.1, 0.0, 0.0)))
+    b.move("mount", X)
+    b.compensate("mount", X)
+    found = measuring.measure(urdfs.load(a.text), urdfs.load(b.text), NEAR)
+    (moved,) = (difference for difference in found.differences if difference.kind == "tip-moved")
+    assert isinstance(moved, CarriedMoved)
+    assert moved.joint.name == "mount"
+    R = np.eye(3) if moved.alone else Edited(ARM).origin("mount")[:3, :3]
+    assert moved.move.shift == pytest.approx(R @ SHIFT, abs=1e-12)
+    assert moved.move.turn == pytest.approx(R @ TURN, abs=1e-12)
+
+
+def test_the_nearest_joints_below_come_first() -> None:
+    """Two chains of three from one column: the column's neighbours, then theirs, and no more than asked for."""
+    joints = [urdfs.joint("column", "revolute", "base", "top")]
+    for side in "lr":
+        parents = ["top", *(f"{side}{i}" for i in range(3))]
+        pairs = itertools.pairwise(parents)
+        joints += [urdfs.joint(child.upper(), "revolute", parent, child) for parent, child in pairs]
+    robot = urdfs.load(urdfs.robot(*joints, links="base top l0 l1 l2 r0 r1 r2"))
+    pairs_ = matching.match(robot.description, robot.description).pairs
+    poses = geometry.Poses(robot.description)
+    features = walk.Features(poses, poses, pairs_, [], frozenset(), NEAR)
+    column = next(i for i, pair in enumerate(pairs_) if pair.named.name == "column")
+    for most in range(7):
+        near = [pairs_[i].named.name for i in features.nearest(column, most)]
+        assert len(near) == most
+        assert [name[1] for name in near] == list("001122")[:most]
+    assert len(features.nearest(column, 12)) == 6
 
 
 def test_what_follows_another_joint_is_displaced_as_seen_from_its_parent() -> None:
