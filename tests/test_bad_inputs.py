@@ -208,6 +208,17 @@ def test_odd_but_right(case: Case, server: limited.Server, tmp_path: Path) -> No
     assert [warning.message.code for warning in caught] == [case.code] * bool(case.code)  # type: ignore[union-attr]
 
 
+@pytest.mark.parametrize("case", bad_inputs.PLAIN, ids=name_of)
+def test_pinocchio_is_not_asked_for_what_is_no_kinematics(case: Case, tmp_path: Path) -> None:
+    """It refuses these, takes links and joints alone, and agrees."""
+    robot = ps.load(write(case, tmp_path))
+    with pytest.warns(PinscrewWarning) as caught:
+        report = ps.verify(robot, samples=2)
+    assert report.ok
+    assert [w.message.code for w in caught if isinstance(w.message, PinscrewWarning)] == [case.code]
+    assert all(word in str(caught[0].message) for word in case.words)
+
+
 @pytest.mark.parametrize("name", bad_inputs.NAMES.values(), ids=bad_inputs.NAMES)
 def test_names_are_text(name: str, server: limited.Server, tmp_path: Path) -> None:
     """A name is shown as it is, whatever it holds, and reaches no terminal, mark-up or format as more than text."""

@@ -203,6 +203,7 @@ def test_tolerance_is_respected() -> None:
     assert fk.tolerance == 2e-9
 
 
+@pytest.mark.filterwarnings("ignore:.*lengths are in metres")
 def test_metres_are_divided_by_the_size() -> None:
     """1e-12 m are rounding for a robot of 400 m, whose entries of 400 have an ulp of 6e-14."""
     text = urdfs.chain(4).replace("1 0 0", "100 0 0")

@@ -170,6 +170,7 @@ def test_rounding_passes(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert (found.same, found.changes.notes) == (True, ())
 
 
+@pytest.mark.filterwarnings("ignore:.*lengths are in metres")
 @pytest.mark.parametrize("name", urdfs.ROBOTS)
 @pytest.mark.parametrize("scale", [1.0, 1e-4, 1e6])
 def test_rounding_passes_at_any_size(name: str, scale: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -214,6 +214,7 @@ print(lockfile.text(ps.load("spherical_rrp")), end="")
 # -------------------------------------------------------------------------------------------- odd robots
 
 
+@pytest.mark.filterwarnings("ignore:.*lengths are in metres")
 @pytest.mark.parametrize("scale", [1e-9, 1e-3, 1.0, 1e6, 1e9])
 def test_any_size(scale: float, tmp_path: Path) -> None:
     """Twelve digits of the size, whatever it is."""

@@ -263,3 +263,10 @@ def test_pieces_of_one_velocity_have_one_unit() -> None:
         ps.Profile.pieces({"joint1": [("0 <= t < 1", "10deg"), ("1 <= t <= 2", "2cm")]}, "mine")
     assert caught.value.code == "unit"
     ps.Profile.pieces({"joint1": [("0 <= t < 1", "10deg"), ("1 <= t <= 2", "0.3")]}, "mine")
+
+
+@pytest.mark.parametrize("when", ["1 <= t <= 1", "2 <= t < 1"])
+def test_a_piece_that_lasts_no_time(when: str) -> None:
+    with pytest.raises(DescriptionError, match="is empty; the later time comes last") as caught:
+        ps.Profile.pieces({"joint1": [(when, 0.1)]}, "mine")
+    assert caught.value.code == "profile-interval"

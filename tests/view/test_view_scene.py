@@ -155,6 +155,7 @@ def test_no_velocity_draws_nothing_of_it() -> None:
         assert np.isfinite(drawable.transform).all()
 
 
+@pytest.mark.filterwarnings("ignore:.*lengths are in metres")
 @pytest.mark.parametrize("scale", [1e-6, 1e-3, 1.0, 1e4])
 def test_sizes_follow_the_robot(scale: float) -> None:
     joint = urdfs.joint("j", "revolute", "base", "tool", xyz=f"{scale} 0 0", axis="0 0 1")

@@ -101,6 +101,13 @@ def robot_argument(*, required: bool = True) -> Callable[[_F], _F]:
             help="Let files outside the robot's own folder and the packages be read, by xacro and for meshes.",
         ),
         click.option(
+            "--strict",
+            is_flag=True,
+            expose_value=False,
+            callback=_keep,
+            help="Refuse what is warned of otherwise: misspelt elements, degrees for radians and the like.",
+        ),
+        click.option(
             "--floating-base",
             is_flag=True,
             expose_value=False,

@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 import sympy as sp
 
 from pinscrew.derivation import exact
-from pinscrew.description import markup
+from pinscrew.description import markup, orientation
 from pinscrew.description.model import SCALAR_TYPES, Description
 from pinscrew.ground.errors import UnsupportedError
 from pinscrew.robot.robot import Robot
@@ -108,6 +108,13 @@ def _unsupported(code: str, description: Description, what: str, remedy: str) ->
     return UnsupportedError(code, what, file=description.file, remedy=remedy)
 
 
+def _rpy(origin: Mapping[str, str]) -> str:
+    """Roll, pitch and yaw as the file has them, or those of its quaternion."""
+    if "quat_xyzw" not in origin:
+        return origin.get("rpy", "0 0 0")
+    return " ".join(f"{angle!r}" for angle in orientation.to_rpy(orientation.of_origin(origin)))
+
+
 def _printed(element: markup.Element, kind: str) -> Printed:
     attributes = {child.tag: child.attributes for child in element.children}
     origin, mimic = attributes.get("origin", {}), attributes.get("mimic")
@@ -115,7 +122,7 @@ def _printed(element: markup.Element, kind: str) -> Printed:
         name=element.attributes["name"],
         type=kind,
         xyz=_three(origin.get("xyz", "0 0 0")),
-        rpy=_three(origin.get("rpy", "0 0 0")),
+        rpy=_three(_rpy(origin)),
         axis=_three(attributes.get("axis", {}).get("xyz", "1 0 0")),
         mimic=None
         if mimic is None or kind == "fixed"

@@ -7,15 +7,16 @@ What passes here is refused by neither and read by both in the same way.
 from __future__ import annotations
 
 import math
-import re
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 from pinscrew.description.markup import Element
 from pinscrew.description.model import JOINT_TYPES, SCALAR_TYPES
+from pinscrew.description.suspicions import suspicions
+from pinscrew.description.tree import tree_of
+from pinscrew.description.values import SPACE, numbers
 from pinscrew.ground.errors import DescriptionError, PinscrewWarning, UnsupportedError
 from pinscrew.ground.words import brief
 
@@ -30,13 +31,11 @@ MAX_NUMBER: Final = 1e9
 UNIT_AXIS: Final = 1e-6
 """An axis whose length differs from one by less is taken as rounded, and normalised without a warning."""
 
+VERSIONS: Final = ("1.0", "1.1", "1.2")
+"""Of URDF; the last has quaternions."""
+
 MAX_LINKS: Final = 20_000
 """Most links of a robot: reading ten thousand takes some 3 s."""
-
-# No two parts of it match the same digits, so that a long line of them takes no time that grows with the square.
-_NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
-_SPACE: Final = " \t\r\n"
-_WORD: Final = re.compile(rf"[^{_SPACE}]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,18 +48,25 @@ class Checked:
     """The joint that leads to each link but the first."""
 
 
-def check(root: Element, file: str | Path) -> Checked:
+def check(root: Element, file: str | Path, *, strict: bool = False) -> Checked:
     """Check that ``root`` describes one tree of named links, with numbers where numbers are due.
+
+    Args:
+        root: the file's root element.
+        file: what to call it in messages.
+        strict: whether what is warned of otherwise is an error.
 
     Raises:
         DescriptionError: naming the first element that is wrong, and what would be right.
     """
-    return _Check(file).run(root)
+    return _Check(file, strict).run(root)
 
 
 class _Check:
-    def __init__(self, file: str | Path) -> None:
+    def __init__(self, file: str | Path, strict: bool) -> None:
         self.file = file
+        self.strict = strict
+        self.quaternions = False
 
     def run(self, root: Element) -> Checked:
         if root.tag != "robot":
@@ -71,6 +77,7 @@ class _Check:
             if element.tag.startswith("xacro:"):
                 remedy = 'declare xmlns:xacro="http://www.ros.org/wiki/xacro" in <robot>, so that it is expanded first'
                 raise self.error("unexpanded-xacro", element, f"<{element.tag}> is not URDF", remedy, label="")
+        self.quaternions = self._version(root)
         links = self._named(root, "link")
         joints = self._named(root, "joint")
         if not links:
@@ -78,12 +85,14 @@ class _Check:
         if len(links) > MAX_LINKS:
             what = f"{len(links)} links are more than {MAX_LINKS}"
             raise self.error("too-large", root, what, label="<robot>")
-        if not root.attributes.get("name", "").strip(_SPACE):
+        if not root.attributes.get("name", "").strip(SPACE):
             raise self.error("no-name", root, "has no name", 'write <robot name="...">', label="<robot>")
         for joint in joints.values():
             self._joint(joint, links)
         self._mimics(joints)
-        order, leading = self._tree(root, links, joints)
+        for suspicion in suspicions(root):
+            self.warn(suspicion.code, suspicion.element, suspicion.words, suspicion.joint)
+        order, leading = tree_of(root, links, joints, self.error)
         return Checked(root.attributes["name"], order, leading)
 
     def error(
@@ -99,17 +108,45 @@ class _Check:
         label = _label(element) if label is None else label
         return kind(code, brief(what), file=element.file or self.file, line=element.line, element=label, remedy=remedy)
 
-    def warn(self, code: str, element: Element, what: str) -> None:
+    def warn(self, code: str, element: Element, what: str, about: Element | None = None) -> None:
+        """Warn about something on the line of an element, by the name of the joint that it is in."""
+        label = "" if about is None and "name" not in element.attributes else _label(about or element)
+        if self.strict:
+            raise self.error(code, element, what, label=label)
         file = element.file or self.file
-        remark = PinscrewWarning(code, f"{_label(element)}: {brief(what)}", file=file, line=element.line)
-        warnings.warn(remark, stacklevel=2)
+        words = f"{label}: {brief(what)}" if label else brief(what)
+        warnings.warn(PinscrewWarning(code, words, file=file, line=element.line), stacklevel=2)
+
+    def _version(self, root: Element) -> bool:
+        """Whether the file's version of URDF has quaternions."""
+        version = root.attributes.get("version", "1.0")
+        if version not in VERSIONS:
+            remedy = f"use one of {', '.join(VERSIONS)}, or none, which is 1.0"
+            raise self.error("urdf-version", root, f"the version {version!r} of URDF does not exist", remedy, label="")
+        return version == VERSIONS[-1]
+
+    def _quaternion(self, joint: Element, origin: Element) -> None:
+        quaternion = self._numbers(joint, origin, "quat_xyzw", 4)
+        if quaternion is None:
+            return
+        if not self.quaternions:
+            what = "quat_xyzw is of URDF 1.2, and not all readers of this file know it"
+            raise self.error("origin-quaternion", joint, what, 'write <robot version="1.2">, or rpy')
+        if "rpy" in origin.attributes:
+            raise self.error("origin-quaternion", joint, "its <origin> has both rpy and quat_xyzw", "keep one of them")
+        length = math.hypot(*quaternion)
+        if not length > MIN_AXIS:
+            what = f"its quaternion is {length:g} long and no rotation"
+            raise self.error("origin-quaternion", joint, what, 'write x, y, z, w of unit length: quat_xyzw="0 0 0 1"')
+        if abs(length - 1.0) > UNIT_AXIS:
+            self.warn("quaternion-normalised", joint, f"its quaternion is {length:.9g} long and was normalised")
 
     def _named(self, root: Element, tag: str) -> dict[str, Element]:
         """The elements with this tag, by their names, which must be there and unique."""
         found: dict[str, Element] = {}
         for element in root.all(tag):
             name = element.attributes.get("name", "")
-            if not name.strip(_SPACE):
+            if not name.strip(SPACE):
                 remedy = f'write <{tag} name="...">'
                 raise self.error("no-name", element, "has no name", remedy, label=f"<{tag}>")
             if name in found:
@@ -131,6 +168,7 @@ class _Check:
         if (origin := self._only(joint, "origin")) is not None:
             for attribute in ("xyz", "rpy"):
                 self._numbers(joint, origin, attribute, 3)
+            self._quaternion(joint, origin)
         if kind in SCALAR_TYPES or kind == "planar":
             self._axis(joint, planar=kind == "planar")
         limit = self._only(joint, "limit")
@@ -158,22 +196,12 @@ class _Check:
     def _numbers(
         self, joint: Element, element: Element, attribute: str, count: int, most: float = MAX_NUMBER
     ) -> list[float] | None:
-        """The numbers in an attribute, of at most ``most``, or None where it is absent."""
-        text = element.attributes.get(attribute)
-        if text is None:
-            return None
-        words = _WORD.findall(text)
-        remedy = f"write {'one finite number' if count == 1 else f'{count} finite numbers'}, such as "
-        remedy += f'{attribute}="{" ".join(["0.1"] * count)}"'
-        place = f"<{element.tag} {attribute}={text!r}>"
-        if len(words) != count:
-            raise self.error("number-count", joint, f"{place} has {len(words)} values", remedy)
-        for word in words:
-            if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
-                raise self.error("number", joint, f"{place}: {word!r} is not a finite number", remedy)
-            if not abs(float(word)) <= most:
-                raise self.error("number", joint, f"{place}: {word} is larger than {most:g}", remedy)
-        return [float(word) for word in words]
+        """The numbers in an attribute of a joint, or None where it is absent."""
+
+        def refuse(code: str, what: str, remedy: str) -> DescriptionError:
+            return self.error(code, joint, what, remedy)
+
+        return numbers(element, attribute, count, refuse, most=most)
 
     def _axis(self, joint: Element, *, planar: bool) -> None:
         element = self._only(joint, "axis")
@@ -212,7 +240,7 @@ class _Check:
         (lower,), (upper,) = values["lower"] or [0.0], values["upper"] or [0.0]
         if lower > upper:
             what = f"its lower limit {lower:g} is above its upper limit {upper:g}"
-            raise self.error("reversed-limits", joint, what, "swap them")
+            self.warn("reversed-limits", joint, f"{what}; it is taken to have none, as PyBullet does")
         if values["lower"] is None or values["upper"] is None:
             missing = " and ".join(a for a in ("lower", "upper") if values[a] is None)
             self.warn("limit-zero", joint, f"its <limit> has no {missing}, which URDF takes as 0")
@@ -251,45 +279,6 @@ class _Check:
                 master = masters[master]
             ending |= seen
 
-    def _tree(
-        self, root: Element, links: dict[str, Element], joints: dict[str, Element]
-    ) -> tuple[tuple[str, ...], tuple[Element, ...]]:
-        """The links in tree order, and the joint that leads to each but the first."""
-        leading: dict[str, Element] = {}
-        below: dict[str, list[str]] = {name: [] for name in links}
-        for joint in joints.values():
-            parent, child = (next(joint.all(tag)).attributes["link"] for tag in ("parent", "child"))
-            if parent == child:
-                raise self.error("self-loop", joint, f"joins {parent!r} to itself", "name two links")
-            if child in leading:
-                other = leading[child].attributes["name"]
-                what = f"leads to {child!r}, as joint {other!r} does; a tree has one way to each link"
-                raise self.error("two-parents", joint, what, "remove one of the two joints")
-            leading[child] = joint
-            below[parent].append(child)
-        tops = [name for name in links if name not in leading]
-        if len(tops) > 1:
-            what = f"has {len(tops)} root links: {', '.join(map(repr, tops[:5]))}{', …' * (len(tops) > 5)}"
-            raise self.error("two-roots", root, what, "join them all to one", label="<robot>")
-        order = _depth_first(tops, below.__getitem__)
-        if len(order) < len(links):
-            reached = set(order)
-            lost = next(name for name in links if name not in reached)
-            what = "is on a cycle of joints, and no root link leads to it"
-            raise self.error("cycle", links[lost], what, "break the cycle: URDF describes trees")
-        return tuple(order), tuple(leading[name] for name in order[1:])
-
 
 def _label(element: Element) -> str:
     return f"{element.tag} {brief(element.attributes.get('name', ''))!r}"
-
-
-def _depth_first(tops: list[str], below: Callable[[str], list[str]]) -> list[str]:
-    """All that hangs below ``tops``, parents before children; no recursion, since chains can be long."""
-    order: list[str] = []
-    stack = list(reversed(tops))
-    while stack:
-        name = stack.pop()
-        order.append(name)
-        stack.extend(reversed(below(name)))
-    return order

@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from pinscrew.description import markup, structure
+from pinscrew.description import markup, orientation, structure
 from pinscrew.description.model import Description, Joint, Limits, Mimic
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ _KINEMATIC: Final[Mapping[str, frozenset[str]]] = {
     "joint": frozenset(("name", "type")),
     "parent": frozenset(("link",)),
     "child": frozenset(("link",)),
-    "origin": frozenset(("xyz", "rpy")),
+    "origin": frozenset(("xyz", "rpy")),  # and quat_xyzw, which yourdfpy does not know
     "axis": frozenset(("xyz",)),
     "limit": frozenset(("lower", "upper", "effort", "velocity")),
     "mimic": frozenset(("joint", "multiplier", "offset")),
@@ -38,7 +38,12 @@ _WITHOUT: Final[Mapping[str, tuple[str, ...]]] = {
 
 
 def parse(
-    text: str, file: str | Path, arguments: Mapping[str, str] | None = None, places: Sequence[markup.Place] = ()
+    text: str,
+    file: str | Path,
+    arguments: Mapping[str, str] | None = None,
+    places: Sequence[markup.Place] = (),
+    *,
+    strict: bool = False,
 ) -> Description:
     """Read the URDF in ``text``.
 
@@ -47,11 +52,12 @@ def parse(
         file: what to call it in messages.
         arguments: the xacro arguments it was expanded with, for the record.
         places: where its elements come from, where it was expanded; see `markup.parse`.
+        strict: whether what looks wrong is an error.
 
     Raises:
         DescriptionError: if it does not describe one tree of links; see `structure.check`.
     """
-    checked = structure.check(markup.parse(text, file, places), file)
+    checked = structure.check(markup.parse(text, file, places), file, strict=strict)
     parsed = {joint.name: joint for joint in _parse_kinematics(checked).joints}
     joints = tuple(_joint(parsed[e.attributes["name"]], e, str(file)) for e in checked.joints)
     return Description(
@@ -91,14 +97,19 @@ def _copy(element: markup.Element, parent: ET.Element) -> ET.Element:
 
 def _joint(joint: yourdfpy.Joint, element: markup.Element, file: str) -> Joint:
     origin = np.eye(4) if joint.origin is None else joint.origin
+    for child in element.all("origin"):
+        if "quat_xyzw" in child.attributes:
+            origin[:3, :3] = orientation.of_origin(child.attributes)
     limit = joint.limit
     limits = Limits()
     if limit is not None:
         bounded = joint.type in ("revolute", "prismatic")
+        # URDF takes an absent bound as 0; a continuous joint has none, and reversed ones are none.
+        lower, upper = limit.lower or 0.0, limit.upper or 0.0
+        bounded &= lower <= upper
         limits = Limits(
-            # URDF takes an absent bound as 0; a continuous joint has none.
-            lower=(limit.lower or 0.0) if bounded else -np.inf,
-            upper=(limit.upper or 0.0) if bounded else np.inf,
+            lower=lower if bounded else -np.inf,
+            upper=upper if bounded else np.inf,
             velocity=limit.velocity,
             effort=limit.effort,
         )

@@ -5,8 +5,6 @@ Kinematics never reads this: a robot whose looks are wrong can be loaded, but no
 
 from __future__ import annotations
 
-import math
-import re
 import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,11 +12,12 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from pinscrew.description import markup
+from pinscrew.description import markup, orientation
 from pinscrew.description.markup import Element
 from pinscrew.description.meshes import mesh_file
 from pinscrew.description.model import Description, read_only
 from pinscrew.description.packages import Packages
+from pinscrew.description.values import numbers
 from pinscrew.ground.errors import DescriptionError, PinscrewWarning
 from pinscrew.ground.typing import FloatArray
 
@@ -30,7 +29,6 @@ Color: TypeAlias = tuple[float, float, float, float]
 DEFAULT_COLOR: Final[Color] = (0.62, 0.65, 0.69, 1.0)
 """Of a visual without a material."""
 
-_NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _SIZES: Final[dict[str, dict[str, int]]] = {
     "box": {"size": 3},
     "cylinder": {"radius": 1, "length": 1},
@@ -170,7 +168,10 @@ class _Reader:
         T = np.eye(4)
         for origin in element.all("origin"):
             T[:3, 3] = self._numbers(link, origin, "xyz", 3) or (0.0, 0.0, 0.0)
-            T[:3, :3] = _rotation(*(self._numbers(link, origin, "rpy", 3) or (0.0, 0.0, 0.0)))
+            T[:3, :3] = orientation.of_rpy(*(self._numbers(link, origin, "rpy", 3) or (0.0, 0.0, 0.0)))
+            quaternion = self._numbers(link, origin, "quat_xyzw", 4)
+            if quaternion is not None and any(quaternion):
+                T[:3, :3] = orientation.of_quaternion(quaternion)
         return read_only(T)
 
     def _own_color(self, material: Element) -> Color | None:
@@ -191,28 +192,10 @@ class _Reader:
         return values
 
     def _numbers(self, link: str, element: Element, attribute: str, count: int) -> tuple[float, ...] | None:
-        """The numbers in an attribute, or None where it is absent; as strict as the structural check."""
-        text = element.attributes.get(attribute)
-        if text is None:
-            return None
-        words = text.split()
-        place = f"<{element.tag} {attribute}={text!r}>"
-        remedy = f"write {count} finite number{'s' * (count > 1)}"
-        if len(words) != count:
-            raise self._error("number-count", link, element, f"{place} has {len(words)} values", remedy)
-        for word in words:
-            if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
-                raise self._error("number", link, element, f"{place}: {word!r} is not a finite number", remedy)
-        return tuple(float(word) for word in words)
+        """The numbers in an attribute, or None where it is absent."""
 
+        def refuse(code: str, what: str, remedy: str) -> DescriptionError:
+            return self._error(code, link, element, what, remedy)
 
-def _rotation(roll: float, pitch: float, yaw: float) -> FloatArray:
-    """Rz(yaw) Ry(pitch) Rx(roll), URDF's meaning of rpy: shape (3, 3)."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
+        values = numbers(element, attribute, count, refuse)
+        return None if values is None else tuple(values)

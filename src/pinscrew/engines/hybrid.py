@@ -13,7 +13,6 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
-from xml.etree import ElementTree as ET
 
 import numpy as np
 
@@ -23,12 +22,10 @@ from pinscrew.ground.errors import UnsupportedError
 from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
 from pinscrew.robot.robot import FLOATING_JOINT, Robot
 
-__all__ = ["MAX_LINKS", "Drive", "HybridEngine", "Told", "drive", "joint_names", "plain_urdf"]
+__all__ = ["MAX_LINKS", "Drive", "HybridEngine", "Told", "drive", "joint_names"]
 
 MAX_LINKS: Final = 1000
 """MuJoCo's compiler takes 5 s for a chain of 1000 links and minutes for 3000; roboticstoolbox recurses."""
-
-_KINEMATIC: Final = ("origin", "parent", "child", "axis", "limit", "mimic")
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,22 +155,3 @@ def joint_names(robot: Robot) -> dict[str, str]:
     if robot.floating_base:
         names[robot.description.joints[0].child] = FLOATING_JOINT
     return names
-
-
-def plain_urdf(robot: Robot) -> ET.Element:
-    """The robot's URDF with its names and kinematics alone, as they are written, for a library to read.
-
-    Meshes, shapes and masses, which a library may not find or not believe, are left out, and so is what other
-    programs keep in a URDF.
-    """
-    written = markup.parse(robot.description.text, robot.description.file)
-    root = ET.Element("robot", name=written.attributes["name"])
-    for link in written.all("link"):
-        ET.SubElement(root, "link", name=link.attributes["name"])
-    for joint in written.all("joint"):
-        copied = ET.SubElement(root, "joint", name=joint.attributes["name"], type=joint.attributes["type"])
-        for child in joint.children:
-            if child.tag in _KINEMATIC:
-                own = {name: value for name, value in child.attributes.items() if ":" not in name}
-                ET.SubElement(copied, child.tag, own)
-    return root

@@ -8,8 +8,6 @@ call and their Jacobian columns folded after it. Nothing here uses the descripti
 
 from __future__ import annotations
 
-import re
-import tempfile
 import threading
 from collections.abc import Mapping, Sequence
 from math import hypot, isfinite
@@ -22,11 +20,12 @@ from numpy import ndarray
 from pinscrew.engines.asking import Answer, written
 from pinscrew.engines.base import Answers, Bound, CheckedEngine, JointView
 from pinscrew.engines.expansion import MAX_COORDINATES, MAX_DEPTH, Driven, Expansion, check_size, read_mimics
-from pinscrew.engines.native import standard_error_to
+from pinscrew.engines.pinocchio_model import build
+from pinscrew.engines.plain import limits_seen
 from pinscrew.ground.errors import EngineError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, JacobianKind, KindLike
 from pinscrew.robot.loading import RobotLike, robot_of
-from pinscrew.robot.robot import UNIVERSE, Robot
+from pinscrew.robot.robot import UNIVERSE
 
 __all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Pinocchio"]
 
@@ -63,7 +62,7 @@ class Pinocchio(CheckedEngine):
         """
         super().__init__(robot := robot_of(robot))
         check_size(robot)
-        self.model = _build(robot)
+        self.model = build(robot)
         self._threads = threading.local()
         self._mimics = read_mimics(robot)
         self._expansion, self._fold = self._map_coordinates()
@@ -106,7 +105,7 @@ class Pinocchio(CheckedEngine):
         limits = None
         if kind in ("revolute", "prismatic") and joint.nq == 1:
             at = joint.idx_q
-            limits = (float(self.model.lowerPositionLimit[at]), float(self.model.upperPositionLimit[at]))
+            limits = limits_seen(self.model.lowerPositionLimit[at], self.model.upperPositionLimit[at])
         return JointView(kind, parent, child, limits, self._mimics.get(frame.name))
 
     # The checks that are made for batches take many times as long as Pinocchio's answer to one configuration, so that
@@ -284,17 +283,3 @@ def _kind(joint: Any) -> str:
     if "Planar" in name:
         return "planar"
     return "prismatic" if name.startswith("JointModelP") else "revolute"
-
-
-def _build(robot: Robot) -> Any:
-    root = (pin.JointModelFreeFlyer(),) if robot.floating_base else ()
-    with tempfile.TemporaryFile() as said:
-        try:
-            with standard_error_to(said.fileno()):
-                return pin.buildModelFromXML(robot.description.text, *root)
-        except (RuntimeError, ValueError, IndexError) as error:
-            said.seek(0)
-            words = " ".join(f"{said.read().decode(errors='replace')} {error}".split())
-            words = re.sub(r" at line \d+ in \S+", "", words)  # of the sources that its wheel was built from
-            what = f"Pinocchio refuses the file: {words}"
-            raise EngineError("pinocchio-refuses", what, where=robot.description.file) from None

@@ -10,6 +10,7 @@ long and their operands stay in the cache.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -278,13 +279,14 @@ class _Chain:
 
 
 def _view(joint: Joint) -> JointView:
-    bounded = joint.type in ("revolute", "prismatic")
+    ends = (joint.limits.lower, joint.limits.upper)
+    bounded = joint.type in ("revolute", "prismatic") and ends != (-math.inf, math.inf)
     mimic = joint.mimic
     return JointView(
         type="revolute" if joint.type == "continuous" else joint.type,
         parent=joint.parent,
         child=joint.child,
-        limits=(joint.limits.lower, joint.limits.upper) if bounded else None,
+        limits=ends if bounded else None,
         mimic=None if mimic is None else (mimic.joint, mimic.multiplier, mimic.offset),
     )
 

@@ -45,6 +45,7 @@ def check(
     source: str | Path | None = None,
     packages: Mapping[str, str | Path] | None = None,
     allow_outside: bool = False,
+    strict: bool = False,
     fail_on: Iterable[str] | None = None,
     otherwise: Iterable[str] = (),
 ) -> LockCheck:
@@ -59,6 +60,7 @@ def check(
         packages: roots of ROS packages, as for `pinscrew.load`.
         allow_outside: let the robot's file be outside the lock's folder, and a xacro file read files outside its own,
             as for `pinscrew.load`.
+        strict: refuse what is warned of otherwise, as for `pinscrew.load`.
         fail_on: what of the notes is to fail, such as ``["names", "velocity"]``; by default what the lock says.
         otherwise: that, where the lock does not say either.
 
@@ -71,7 +73,7 @@ def check(
     lock = read_lock(path)
     kept = lock.content.fail_on
     asked = gates(fail_on if fail_on is not None else kept if kept is not None else otherwise)
-    robot = reload(lock, source=source, packages=packages, allow_outside=allow_outside)
+    robot = reload(lock, source=source, packages=packages, allow_outside=allow_outside, strict=strict)
     if fingerprint(robot) == lock.content.hash and robot.description.name == lock.content.robot:
         return LockCheck(lock.path, robot, None)
     locked = lock.robot()
@@ -89,6 +91,7 @@ def reload(
     source: str | Path | None = None,
     packages: Mapping[str, str | Path] | None,
     allow_outside: bool,
+    strict: bool,
 ) -> Robot:
     """The robot of a lock, read from its file as that is now; see `check`."""
     content = lock.content
@@ -105,4 +108,5 @@ def reload(
         arguments=content.arguments,
         packages=packages,
         allow_outside=allow_outside,
+        strict=strict,
     )

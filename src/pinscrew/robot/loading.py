@@ -41,6 +41,7 @@ def load(
     arguments: Mapping[str, float | str] | None = None,
     packages: Mapping[str, str | Path] | None = None,
     allow_outside: bool = False,
+    strict: bool = False,
     **more: float | str,
 ) -> Robot:
     """Load a robot.
@@ -54,6 +55,8 @@ def load(
         packages: roots of ROS packages by name, for ``$(find …)`` and ``package://``; the environment's and the
             file's own are found without.
         allow_outside: let a xacro file read files outside its own folder and the packages; for meshes, see `show`.
+        strict: refuse what is warned of otherwise: misspelt elements, degrees for radians, axes that are not of unit
+            length, and the like.
         more: the xacro file's arguments, such as ``l1=0.4``.
 
     Raises:
@@ -75,5 +78,5 @@ def load(
     elif given:
         what = f"a plain URDF has no arguments, but {', '.join(given)} came"
         raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")
-    description = urdf.parse(text, entry.file, given, places)
+    description = urdf.parse(text, entry.file, given, places, strict=strict)
     return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)

@@ -1,6 +1,6 @@
 """MuJoCo as a witness: its own URDF compiler and kinematics, asked in our coordinates.
 
-It is given the kinematic part of the URDF as written (`hybrid.plain_urdf`), asked to keep links that don't move, and
+It is given the kinematic part of the URDF as written (`plain.plain_urdf`), asked to keep links that don't move, and
 to give each link some mass, without which it compiles no body; neither changes where anything is. Mimic joints follow
 the equality constraints that its compiler makes of them: `mj_kinematics` does not enforce these, so they are expanded
 before each call, and the Jacobians' columns are folded after it.
@@ -9,6 +9,7 @@ before each call, and the Jacobians' columns are folded after it.
 from __future__ import annotations
 
 import threading
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,8 +19,9 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from pinscrew.engines.base import JointView
-from pinscrew.engines.hybrid import HybridEngine, Told, drive, joint_names, plain_urdf
-from pinscrew.ground.errors import EngineError, MissingExtraError
+from pinscrew.engines.hybrid import HybridEngine, Told, drive, joint_names
+from pinscrew.engines.plain import limits_seen, plain_urdf
+from pinscrew.ground.errors import EngineError, MissingExtraError, PinscrewWarning
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE, Robot
 
@@ -74,6 +76,14 @@ class MuJoCo(HybridEngine):
         self._kinds = {index: self._kind(index) for index in self._links}
         self._mimics = self._read_mimics()
         self._map_coordinates()
+        # MuJoCo drops equal limits, which lock a joint: said once, and no difference in what moves.
+        joints = [joint for joint in robot.description.joints if joint.type in ("revolute", "prismatic")]
+        equal = [joint for joint in joints if joint.limits.lower == joint.limits.upper]
+        self._locked = {joint.name: (joint.limits.lower, joint.limits.upper) for joint in equal}
+        if equal:
+            names = ", ".join(repr(joint.name) for joint in equal)
+            remark = f"MuJoCo drops the limits of {names}, whose lower and upper limit are equal"
+            warnings.warn(PinscrewWarning("witness-limits", remark, file=robot.description.file), stacklevel=2)
 
     def joints(self) -> Mapping[str, JointView]:
         """The joints as MuJoCo's compiler saw them, by name; it forgets those of fixed joints, which are the file's."""
@@ -84,7 +94,9 @@ class MuJoCo(HybridEngine):
             limits = None
             at = self.model.body_jntadr[body]
             if kind in ("revolute", "prismatic") and self.model.jnt_limited[at]:
-                limits = (float(self.model.jnt_range[at, 0]), float(self.model.jnt_range[at, 1]))
+                limits = limits_seen(self.model.jnt_range[at, 0], self.model.jnt_range[at, 1])
+            elif joint in self._locked:
+                limits = self._locked[joint]
             parent = self._links[int(self.model.body_parentid[body])]
             views[joint] = JointView(kind, parent, link, limits, self._mimics.get(joint))
         return views

@@ -1,6 +1,6 @@
 """roboticstoolbox as a witness: its own URDF reader and elementary transforms, asked in our coordinates.
 
-It is given the kinematic part of the URDF as written (`hybrid.plain_urdf`). What it gets wrong is left as it is, for
+It is given the kinematic part of the URDF as written (`plain.plain_urdf`). What it gets wrong is left as it is, for
 `verify` to show; ``docs/witnesses.md`` lists it. Joints that it takes for independent although they mimic others have
 no coordinate of ours, and stay at zero.
 """
@@ -14,7 +14,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from pinscrew.engines.base import JointView
-from pinscrew.engines.hybrid import HybridEngine, Told, drive, joint_names, plain_urdf
+from pinscrew.engines.hybrid import HybridEngine, Told, drive, joint_names
+from pinscrew.engines.plain import limits_seen, plain_urdf
 from pinscrew.ground.errors import EngineError, MissingExtraError, UnsupportedError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
@@ -60,7 +61,7 @@ class RoboticsToolbox(HybridEngine):
         for link in self.model.links:
             if link.parent is not None:
                 kind = "fixed" if not link.isjoint else "revolute" if link.isrevolute else "prismatic"
-                limits = None if link.qlim is None else (float(link.qlim[0]), float(link.qlim[1]))
+                limits = None if link.qlim is None else limits_seen(link.qlim[0], link.qlim[1])
                 views[self._names[link.name]] = JointView(kind, link.parent.name, link.name, limits)
         return views
 
