@@ -26,7 +26,7 @@ from pinscrew.ground.processes import process_pool
 from pinscrew.workspace import blocks
 from pinscrew.workspace import reachability as reachability_module
 from pinscrew.workspace.axes import axes
-from pinscrew.workspace.blocks import BLOCK, Task, run_pickled
+from pinscrew.workspace.blocks import BLOCK, MapTask, run_pickled
 from pinscrew.workspace.executors import dask_executor
 from pinscrew.workspace.reachability_map import read_map, write_map
 from pinscrew.workspace.voxels import Gathering, Voxels, approach_directions, direction_bits, voxel_keys
@@ -94,8 +94,8 @@ def test_a_task_done_otherwise_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     robot = load("spherical_rrp")
     other = ps.reachability(robot, voxel=VOXEL, samples=SAMPLES, seed=SEED + 1, executor=Here())
     assert not same(whole(), ps.ReachabilityMap(other.voxels, whole().metadata))
-    run = Task.run
-    monkeypatch.setattr(Task, "run", lambda self, block: run(self, block) if block != 1 else Voxels.none())
+    run = MapTask.run
+    monkeypatch.setattr(MapTask, "run", lambda self, block: run(self, block) if block != 1 else Voxels.none())
     lost = ps.reachability(robot, voxel=VOXEL, samples=SAMPLES, seed=SEED, executor=Here())
     assert not same(whole(), lost)
 
@@ -498,7 +498,7 @@ if __name__ == "__main__":
 
 def test_workers_load_a_task_once() -> None:
     robot = load("one_joint")
-    task = pickle.dumps(Task(for_many(robot), "tool", axes(robot, "tool"), 1, 10, 0, 0.1))
+    task = pickle.dumps(MapTask(for_many(robot), "tool", axes(robot, "tool"), 1, 10, 0, 0.1))
     before = blocks._loaded.cache_info()
     assert [int(run_pickled(task, 0).counts.sum()) for _ in range(3)] == [10] * 3
     after = blocks._loaded.cache_info()

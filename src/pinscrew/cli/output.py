@@ -16,7 +16,7 @@ from pinscrew.ground.escaping import json_text, terminal
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from pinscrew.cli.tables import Table
+    from pinscrew.cli.tables import TerminalTable
     from pinscrew.ground.typing import FloatArray
 
 __all__ = ["console", "matrix_lines", "plain", "print_json", "say", "table", "write_file"]
@@ -38,11 +38,11 @@ def console(*, stderr: bool = False) -> Console:
     return OurConsole(file=stream, width=width, highlight=False, markup=False, emoji=False)
 
 
-def table(*headings: str) -> Table:
-    """A table with these headings; see `tables.Table` for what it does in a narrow terminal."""
-    from pinscrew.cli.tables import Table
+def table(*headings: str) -> TerminalTable:
+    """A table with these headings; see `tables.TerminalTable` for what it does in a narrow terminal."""
+    from pinscrew.cli.tables import TerminalTable
 
-    return Table(*headings)
+    return TerminalTable(*headings)
 
 
 def print_json(document: Any) -> None:

@@ -13,7 +13,7 @@ from pinscrew.ground.escaping import terminal
 if TYPE_CHECKING:
     from rich.console import Console, ConsoleOptions
 
-__all__ = ["Table"]
+__all__ = ["TerminalTable"]
 
 GAP: Final = 2
 """Spaces between columns, and before what stands below its row."""
@@ -21,7 +21,7 @@ LEAST: Final = 24
 """Columns of the terminal in which a long cell may be wrapped; with less, it goes below its row."""
 
 
-class Table:
+class TerminalTable:
     """Rows of cells under headings, for `rich.console.Console.print`.
 
     Where the terminal is too narrow, the last column is wrapped if it has some room, or goes below its row, and then

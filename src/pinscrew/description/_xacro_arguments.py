@@ -10,7 +10,7 @@ from typing import Final
 from pinscrew.description.markup import Element
 from pinscrew.ground.words import brief
 
-__all__ = ["Arguments", "NeedsError"]
+__all__ = ["NeedsError", "XacroArguments"]
 
 _USES: Final = re.compile(r"""\$\(\s*arg\s+([^\s()$]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\)""")
 _STAND_IN: Final = "0"
@@ -33,7 +33,7 @@ class NeedsError(FileNotFoundError):
         self.choices = choices
 
 
-class Arguments(dict[str, str]):
+class XacroArguments(dict[str, str]):
     """The values of the arguments, those given and then the defaults: what xacro looks ``$(arg name)`` up in.
 
     Attributes:

@@ -27,7 +27,7 @@ from xacro import substitution_args
 from pinscrew.description import _xacro_expressions as expressions
 from pinscrew.description import _xacro_places as places
 from pinscrew.description import markup
-from pinscrew.description._xacro_arguments import Arguments, NeedsError
+from pinscrew.description._xacro_arguments import NeedsError, XacroArguments
 from pinscrew.description._xacro_methods import TooLongError, method
 from pinscrew.description.packages import Packages, is_file
 from pinscrew.ground.children import end_with_parent
@@ -62,7 +62,7 @@ class _Session:
         self.file = Path(request["file"])
         declared = {name: Path(path) for name, path in request["packages"].items()}
         self.packages = Packages(self.file, declared, request["allow_outside"])
-        self.arguments = Arguments(request["arguments"])
+        self.arguments = XacroArguments(request["arguments"])
         self.macros: dict[str, str] = {}
 
     def expand(self) -> tuple[str, list[places.Place]]:

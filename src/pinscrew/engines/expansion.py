@@ -16,7 +16,7 @@ from pinscrew.ground.errors import UnsupportedError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
 
-__all__ = ["MAX_COORDINATES", "MAX_DEPTH", "Driven", "Expansion", "check_size", "read_mimics"]
+__all__ = ["MAX_COORDINATES", "MAX_DEPTH", "CoordinateExpansion", "Driven", "check_size", "read_mimics"]
 
 MAX_COORDINATES: Final = 200
 """Pinocchio's data grows with the cube of the velocities: 0.6 GB for 200, 8 GB for 500."""
@@ -45,7 +45,7 @@ class Driven:
 
 
 @dataclass(frozen=True)
-class Expansion:
+class CoordinateExpansion:
     """The way from our coordinates to the model's, joint by joint in the model's order; ``nq`` is the model's."""
 
     joints: tuple[Driven, ...]

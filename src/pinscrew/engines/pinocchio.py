@@ -19,7 +19,7 @@ from numpy import ndarray
 
 from pinscrew.engines.asking import Answer, written
 from pinscrew.engines.base import Answers, Bound, CheckedEngine, JointView
-from pinscrew.engines.expansion import MAX_COORDINATES, MAX_DEPTH, Driven, Expansion, check_size, read_mimics
+from pinscrew.engines.expansion import MAX_COORDINATES, MAX_DEPTH, CoordinateExpansion, Driven, check_size, read_mimics
 from pinscrew.engines.pinocchio_model import build
 from pinscrew.engines.plain import limits_seen
 from pinscrew.ground.errors import EngineError
@@ -189,7 +189,7 @@ class Pinocchio(CheckedEngine):
                     return None
         return None
 
-    def _map_coordinates(self) -> tuple[Expansion, FloatArray]:
+    def _map_coordinates(self) -> tuple[CoordinateExpansion, FloatArray]:
         """The source of each model joint's coordinates, and the matrix F with model velocity = F @ ours."""
         q_of, v_of = self._robot.mechanism.coordinates.q, self._robot.mechanism.coordinates.v
         driven = []
@@ -206,7 +206,7 @@ class Pinocchio(CheckedEngine):
             driven.append(Driven(joint.idx_q, joint.nq, q_of[master], multiplier, offset, kind))
             rows = np.arange(joint.idx_v, joint.idx_v + joint.nv)
             fold[rows, v_of[master] + np.arange(joint.nv)] = multiplier
-        return Expansion(tuple(driven), self.model.nq), fold
+        return CoordinateExpansion(tuple(driven), self.model.nq), fold
 
     def _frame_id(self, name: str) -> int:
         if self._robot.floating_base and name == UNIVERSE:

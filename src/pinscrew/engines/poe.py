@@ -10,7 +10,6 @@ long and their operands stay in the cache.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -280,13 +279,12 @@ class _Chain:
 
 def _view(joint: Joint) -> JointView:
     ends = (joint.limits.lower, joint.limits.upper)
-    bounded = joint.type in ("revolute", "prismatic") and ends != (-math.inf, math.inf)
     mimic = joint.mimic
     return JointView(
         type="revolute" if joint.type == "continuous" else joint.type,
         parent=joint.parent,
         child=joint.child,
-        limits=ends if bounded else None,
+        limits=None if ends == (-np.inf, np.inf) else ends,
         mimic=None if mimic is None else (mimic.joint, mimic.multiplier, mimic.offset),
     )
 

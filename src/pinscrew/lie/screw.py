@@ -12,7 +12,7 @@ import numpy as np
 
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.lie._checks import read, require_finite
+from pinscrew.lie.checks import read, require_finite
 
 __all__ = ["Screw"]
 

@@ -22,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.lie import _checks, _series, so3
+from pinscrew.lie import _series, checks, so3
 
 __all__ = [
     "ad",
@@ -50,7 +50,7 @@ def hat(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
-    xi = _checks.read(xi, (6,), "se3.hat", "xi")
+    xi = checks.read(xi, (6,), "se3.hat", "xi")
     return _affine(_series.skew(xi[..., 3:]), xi[..., :3], 0.0)
 
 
@@ -68,7 +68,7 @@ def vee(X: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 4 by 4.
     """
-    X = _checks.read(X, (4, 4), "se3.vee", "X")
+    X = checks.read(X, (4, 4), "se3.vee", "X")
     return np.concatenate([X[..., :3, 3], so3.vee(X[..., :3, :3])], axis=-1)
 
 
@@ -84,7 +84,7 @@ def exp(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
-    v, axis, angle = _split(_checks.read(xi, (6,), "se3.exp", "xi"))
+    v, axis, angle = _split(checks.read(xi, (6,), "se3.exp", "xi"))
     return _affine(_series.exp(axis, angle), _times(_series.left_jacobian(axis, angle), v), 1.0)
 
 
@@ -103,11 +103,11 @@ def log(T: ArrayLike) -> FloatArray:
         InputError: if the last two axes are not 4 by 4, if :func:`so3.log` refuses the rotation part, if the
             bottom row differs from (0, 0, 0, 1) by more than 1e-6, or if p is not finite.
     """
-    T = _checks.read(T, (4, 4), "se3.log", "T")
+    T = checks.read(T, (4, 4), "se3.log", "T")
     R, p = T[..., :3, :3], T[..., :3, 3]
-    _checks.require_rotation(R, "se3.log", "the rotation part of T")
-    _checks.require_bottom_row(T, "se3.log", "T")
-    _checks.require_finite(p, 1, "se3.log", "the position in T")
+    checks.require_rotation(R, "se3.log", "the rotation part of T")
+    checks.require_bottom_row(T, "se3.log", "T")
+    checks.require_finite(p, 1, "se3.log", "the position in T")
     omega = so3._log(R)
     v = _times(_series.left_jacobian_inverse(*_series.axis_angle(omega)), p)
     return np.concatenate([v, omega], axis=-1)
@@ -125,7 +125,7 @@ def inverse(T: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 4 by 4.
     """
-    T = _checks.read(T, (4, 4), "se3.inverse", "T")
+    T = checks.read(T, (4, 4), "se3.inverse", "T")
     R_transposed = np.swapaxes(T[..., :3, :3], -1, -2)
     return _affine(R_transposed, 0.0 - _times(R_transposed, T[..., :3, 3]), 1.0)
 
@@ -142,7 +142,7 @@ def adjoint(T: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 4 by 4.
     """
-    T = _checks.read(T, (4, 4), "se3.adjoint", "T")
+    T = checks.read(T, (4, 4), "se3.adjoint", "T")
     R = T[..., :3, :3]
     return _dual(R, _series.skew(T[..., :3, 3]) @ R)
 
@@ -159,7 +159,7 @@ def ad(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
-    xi = _checks.read(xi, (6,), "se3.ad", "xi")
+    xi = checks.read(xi, (6,), "se3.ad", "xi")
     return _dual(_series.skew(xi[..., 3:]), _series.skew(xi[..., :3]))
 
 
@@ -177,7 +177,7 @@ def left_jacobian(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
-    v, axis, angle = _split(_checks.read(xi, (6,), "se3.left_jacobian", "xi"))
+    v, axis, angle = _split(checks.read(xi, (6,), "se3.left_jacobian", "xi"))
     return _dual(_series.left_jacobian(axis, angle), _series.left_jacobian_derivative(axis, angle, v))
 
 
@@ -197,8 +197,8 @@ def left_jacobian_inverse(xi: ArrayLike) -> FloatArray:
         InputError: if the last axis is not 6 long, or if θ is a non-zero multiple of 2π as far as a double
             can tell: |θ - 2πk| ≤ 4 ε θ.
     """
-    v, axis, angle = _split(_checks.read(xi, (6,), "se3.left_jacobian_inverse", "xi"))
-    _checks.require_invertible(angle, "se3.left_jacobian_inverse", "xi")
+    v, axis, angle = _split(checks.read(xi, (6,), "se3.left_jacobian_inverse", "xi"))
+    checks.require_invertible(angle, "se3.left_jacobian_inverse", "xi")
     corner = _series.left_jacobian_inverse_derivative(axis, angle, v)
     return _dual(_series.left_jacobian_inverse(axis, angle), corner)
 
@@ -219,10 +219,10 @@ def project(M: ArrayLike) -> FloatArray:
         InputError: if the last two axes are not 4 by 4, if :func:`so3.project` refuses the rotation part, if
             the bottom row differs from (0, 0, 0, 1) by more than 1e-6, or if M is not finite.
     """
-    M = _checks.read(M, (4, 4), "se3.project", "M")
-    _checks.require_finite(M, 2, "se3.project", "M")
-    _checks.require_bottom_row(M, "se3.project", "M")
-    return _affine(_checks.svd_rotation(M[..., :3, :3], "se3.project", "the rotation part of M"), M[..., :3, 3], 1.0)
+    M = checks.read(M, (4, 4), "se3.project", "M")
+    checks.require_finite(M, 2, "se3.project", "M")
+    checks.require_bottom_row(M, "se3.project", "M")
+    return _affine(checks.svd_rotation(M[..., :3, :3], "se3.project", "the rotation part of M"), M[..., :3, 3], 1.0)
 
 
 def _split(xi: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

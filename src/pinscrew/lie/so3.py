@@ -20,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.lie import _checks, _series
+from pinscrew.lie import _series, checks
 
 __all__ = [
     "ad",
@@ -48,7 +48,7 @@ def hat(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
-    return _series.skew(_checks.read(omega, (3,), "so3.hat", "omega"))
+    return _series.skew(checks.read(omega, (3,), "so3.hat", "omega"))
 
 
 def vee(X: ArrayLike) -> FloatArray:
@@ -65,7 +65,7 @@ def vee(X: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3.
     """
-    X = _checks.read(X, (3, 3), "so3.vee", "X")
+    X = checks.read(X, (3, 3), "so3.vee", "X")
     twice = X - np.swapaxes(X, -1, -2)
     return 0.5 * np.stack([twice[..., 2, 1], twice[..., 0, 2], twice[..., 1, 0]], axis=-1)
 
@@ -82,7 +82,7 @@ def exp(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
-    axis, angle = _series.axis_angle(_checks.read(omega, (3,), "so3.exp", "omega"))
+    axis, angle = _series.axis_angle(checks.read(omega, (3,), "so3.exp", "omega"))
     return _series.exp(axis, angle)
 
 
@@ -102,8 +102,8 @@ def log(R: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3, if an entry of RᵀR - I exceeds 1e-6, or if det R < 0.
     """
-    R = _checks.read(R, (3, 3), "so3.log", "R")
-    _checks.require_rotation(R, "so3.log", "R")
+    R = checks.read(R, (3, 3), "so3.log", "R")
+    checks.require_rotation(R, "so3.log", "R")
     return _log(R)
 
 
@@ -119,7 +119,7 @@ def inverse(R: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3.
     """
-    return np.swapaxes(_checks.read(R, (3, 3), "so3.inverse", "R"), -1, -2).copy()
+    return np.swapaxes(checks.read(R, (3, 3), "so3.inverse", "R"), -1, -2).copy()
 
 
 def adjoint(R: ArrayLike) -> FloatArray:
@@ -134,7 +134,7 @@ def adjoint(R: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3.
     """
-    return _checks.read(R, (3, 3), "so3.adjoint", "R").copy()
+    return checks.read(R, (3, 3), "so3.adjoint", "R").copy()
 
 
 def ad(omega: ArrayLike) -> FloatArray:
@@ -149,7 +149,7 @@ def ad(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
-    return _series.skew(_checks.read(omega, (3,), "so3.ad", "omega"))
+    return _series.skew(checks.read(omega, (3,), "so3.ad", "omega"))
 
 
 def left_jacobian(omega: ArrayLike) -> FloatArray:
@@ -166,7 +166,7 @@ def left_jacobian(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
-    axis, angle = _series.axis_angle(_checks.read(omega, (3,), "so3.left_jacobian", "omega"))
+    axis, angle = _series.axis_angle(checks.read(omega, (3,), "so3.left_jacobian", "omega"))
     return _series.left_jacobian(axis, angle)
 
 
@@ -185,8 +185,8 @@ def left_jacobian_inverse(omega: ArrayLike) -> FloatArray:
         InputError: if the last axis is not 3 long, or if θ is a non-zero multiple of 2π as far as a double
             can tell: |θ - 2πk| ≤ 4 ε θ.
     """
-    axis, angle = _series.axis_angle(_checks.read(omega, (3,), "so3.left_jacobian_inverse", "omega"))
-    _checks.require_invertible(angle, "so3.left_jacobian_inverse", "omega")
+    axis, angle = _series.axis_angle(checks.read(omega, (3,), "so3.left_jacobian_inverse", "omega"))
+    checks.require_invertible(angle, "so3.left_jacobian_inverse", "omega")
     return _series.left_jacobian_inverse(axis, angle)
 
 
@@ -203,7 +203,7 @@ def project(M: ArrayLike) -> FloatArray:
         InputError: if the last two axes are not 3 by 3, or if M is improper (det < 0), singular to rounding
             or not finite.
     """
-    return _checks.svd_rotation(_checks.read(M, (3, 3), "so3.project", "M"), "so3.project", "M")
+    return checks.svd_rotation(checks.read(M, (3, 3), "so3.project", "M"), "so3.project", "M")
 
 
 def _log(R: FloatArray) -> FloatArray:

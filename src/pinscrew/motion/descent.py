@@ -22,7 +22,7 @@ from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.motion.freedoms import Freedoms, Task, task_rows
 
-__all__ = ["Descent", "Lanes"]
+__all__ = ["Descent", "Searches"]
 
 DAMPING: Final = 0.1
 """Damping per squared scaled error e²: steps are at most e / (2 √(DAMPING e²)) = 1.6 rad."""
@@ -37,7 +37,7 @@ WINDOW: Final = 10
 
 
 @dataclass(frozen=True, slots=True)
-class Lanes:
+class Searches:
     """Where some descents ended.
 
     Attributes:
@@ -76,7 +76,7 @@ class Descent:
         """Poses (N, 4, 4) of the frame at ``x`` (N, m)."""
         return self._engine.fk(self._free.put(self._q, x), self._free.frame)
 
-    def run(self, T: FloatArray, x: FloatArray, steps: int, settled: float, *, downhill: bool = False) -> Lanes:
+    def run(self, T: FloatArray, x: FloatArray, steps: int, settled: float, *, downhill: bool = False) -> Searches:
         """Go from ``x`` to the targets ``T``, each lane on its own.
 
         Args:
@@ -88,7 +88,7 @@ class Descent:
                 and ends at a minimum; without it a lane may leap from one valley to another.
         """
         x = x.copy()
-        best = Lanes(x.copy(), np.full(len(x), np.inf), np.zeros(len(x), dtype=bool), np.zeros(len(x), dtype=bool))
+        best = Searches(x.copy(), np.full(len(x), np.inf), np.zeros(len(x), dtype=bool), np.zeros(len(x), dtype=bool))
         before, damping = np.full(len(x), np.inf), np.full(len(x), DAMPING)
         errors = np.zeros((len(x), len(self._weights)))
         going = np.arange(len(x))

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.lie._checks import read
+from pinscrew.lie.checks import read
 from pinscrew.robot.mechanism import JointMotion
 from pinscrew.robot.robot import Robot
 

@@ -22,9 +22,9 @@ from pinscrew.robot import manifold
 from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Rates", "integrate", "times"]
+__all__ = ["GivenRates", "integrate", "times"]
 
-Rates: TypeAlias = Profile | Callable[[float], ArrayLike]
+GivenRates: TypeAlias = Profile | Callable[[float], ArrayLike]
 """Rates over time: a profile, or a function of the time (s) that returns them, shape (nv,), rad/s and m/s."""
 
 MOST_STEPS: Final = 1_000_000
@@ -34,7 +34,7 @@ MOST_STEPS: Final = 1_000_000
 def integrate(
     robot: RobotLike,
     q0: ArrayLike | None,
-    qd: Rates,
+    qd: GivenRates,
     dt: float,
     scheme: Scheme = "exponential",
     *,
@@ -102,7 +102,7 @@ def integrate(
 
 
 def times(
-    qd: Rates,
+    qd: GivenRates,
     dt: float,
     *,
     duration: float | None = None,
@@ -185,7 +185,7 @@ def _first(robot: Robot, engine: Engine, q0: ArrayLike | None) -> FloatArray:
     return manifold.integrate(robot, first, np.zeros(robot.nv))
 
 
-def _rates(robot: Robot, qd: Rates) -> Callable[[FloatArray], FloatArray]:
+def _rates(robot: Robot, qd: GivenRates) -> Callable[[FloatArray], FloatArray]:
     """The rates at times (N,), as (N, nv) in the robot's order."""
     if isinstance(qd, Profile):
         columns = qd.columns(robot)

@@ -14,7 +14,7 @@ from pinscrew.engines.pair import pair_of
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie import se3, so3
-from pinscrew.lie._checks import read, require_bottom_row, require_finite, require_rotation
+from pinscrew.lie.checks import read, require_bottom_row, require_finite, require_rotation
 from pinscrew.motion.descent import Descent
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
 from pinscrew.robot.loading import RobotLike, robot_of

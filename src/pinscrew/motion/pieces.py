@@ -17,13 +17,13 @@ from pinscrew.ground.expressions import Expression, Unit
 from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.rates import Rates
 
-__all__ = ["Piece", "Pieces", "Place"]
+__all__ = ["Piece", "Pieces", "Spot"]
 
 _INTERVAL: Final = re.compile(r"([^<≤]+)(<=|≤|<)\s*t\s*(<=|≤|<)([^<≤]+)")
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class Spot:
     """Where something was written, for messages: the source, a line of it, and what stands there."""
 
     source: str
@@ -44,10 +44,10 @@ class Piece:
     has_begin: bool
     has_end: bool
     rate: Expression
-    place: Place
+    place: Spot
 
     @classmethod
-    def of(cls, when: str, rate: str | float, place: Place) -> Piece:
+    def of(cls, when: str, rate: str | float, place: Spot) -> Piece:
         """The piece that ``0 <= t < 1`` and an expression of t describe.
 
         Raises:
@@ -92,7 +92,7 @@ class Pieces(Rates):
         if not lists:
             what = "no velocity has pieces, so it is not said for how long"
             remedy = "write at least one as pieces, such as 0 <= t <= 1; they may be longer than what is asked for"
-            raise Place(source).error("profile-interval", what, remedy)
+            raise Spot(source).error("profile-interval", what, remedy)
         for name, pieces in lists.items():
             _check(name, pieces, source)
         (first, reference), *others = lists.items()
@@ -100,7 +100,7 @@ class Pieces(Rates):
         for name, pieces in others:
             if (pieces[0].begin, pieces[-1].end) != (start, end):
                 what = f"goes from {pieces[0].begin:g} to {pieces[-1].end:g} s, but {first} from {start:g} to {end:g} s"
-                raise Place(source, pieces[0].place.line, name).error("profile-interval", what, "let all do the same")
+                raise Spot(source, pieces[0].place.line, name).error("profile-interval", what, "let all do the same")
         units = [_unit(name, pieces, source) for name, pieces in rates.items()]
         super().__init__(tuple(rates), start, end, source, units)
         self._pieces = rates
@@ -123,7 +123,7 @@ class Pieces(Rates):
         return out
 
 
-def expression(rate: str | float, place: Place) -> Expression:
+def expression(rate: str | float, place: Spot) -> Expression:
     """The expression of t that a text or a number stands for.
 
     Raises:
@@ -141,10 +141,10 @@ def expression(rate: str | float, place: Place) -> Expression:
 
 def _read(name: str, given: str | float | Iterable[tuple[str, str | float]], source: str) -> list[Piece] | Expression:
     if not isinstance(given, Iterable) or isinstance(given, str):
-        return expression(given, Place(source, element=name))
+        return expression(given, Spot(source, element=name))
     found = []
     for i, piece in enumerate(given, 1):
-        place = Place(source, element=f"{name}, piece {i}")
+        place = Spot(source, element=f"{name}, piece {i}")
         try:
             when, rate = piece
         except (TypeError, ValueError):
@@ -160,14 +160,14 @@ def _unit(name: str, pieces: Sequence[Piece] | Expression, source: str) -> Unit:
         return pieces.unit
     written = {piece.rate.unit: piece for piece in pieces if piece.rate.unit}
     if len(written) > 1:
-        raise Place(source, element=name).error("unit", "some pieces are angles and others lengths", "use one unit")
+        raise Spot(source, element=name).error("unit", "some pieces are angles and others lengths", "use one unit")
     return next(iter(written), "")
 
 
 def _check(name: str, pieces: Sequence[Piece], source: str) -> None:
     """Refuse pieces that are none, do not follow each other, or lack the first or last time."""
     if not pieces:
-        raise Place(source, element=name).error("profile-interval", "has no pieces", "write such as 0 <= t <= 1")
+        raise Spot(source, element=name).error("profile-interval", "has no pieces", "write such as 0 <= t <= 1")
     for before, piece in pairwise(pieces):
         piece.follows(before)
     if not pieces[0].has_begin:

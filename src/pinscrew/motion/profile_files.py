@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from pinscrew.description import markup
 from pinscrew.ground.errors import InputError
-from pinscrew.motion.pieces import Piece, Pieces, Place, expression
+from pinscrew.motion.pieces import Piece, Pieces, Spot, expression
 from pinscrew.motion.rates import Rates
 from pinscrew.motion.samples import Between, Samples, check_between
 
@@ -46,31 +46,31 @@ def _pieces(text: str, source: str) -> Pieces:
     import yaml
 
     if len(text) > MOST_YAML:
-        raise Place(source).error("too-large", f"larger than {MOST_YAML / 1e6:g} MB", "use CSV for a large table")
+        raise Spot(source).error("too-large", f"larger than {MOST_YAML / 1e6:g} MB", "use CSV for a large table")
     try:
         document = yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as error:
         line = None if error.problem_mark is None else error.problem_mark.line + 1
-        raise Place(source, line).error("profile-format", f"is no YAML ({error.problem or error.context})") from None
+        raise Spot(source, line).error("profile-format", f"is no YAML ({error.problem or error.context})") from None
     except yaml.YAMLError as error:
-        raise Place(source).error("profile-format", f"is no YAML ({error})") from None
+        raise Spot(source).error("profile-format", f"is no YAML ({error})") from None
     except RecursionError:
-        raise Place(source).error("profile-format", "is nested too deeply") from None
-    top = dict(_entries(document, Place(source, 1), ("rates",), required=("rates",)))
-    rates = dict(_entries(top["rates"], Place(source, _line(top["rates"]), "rates")))
+        raise Spot(source).error("profile-format", "is nested too deeply") from None
+    top = dict(_entries(document, Spot(source, 1), ("rates",), required=("rates",)))
+    rates = dict(_entries(top["rates"], Spot(source, _line(top["rates"]), "rates")))
     return Pieces({name: _rates(name, node, source) for name, node in rates.items()}, source)
 
 
 def _rates(name: str, node: yaml.Node, source: str) -> list[Piece] | Expression:
     """The pieces of a velocity, or the one expression for all times."""
     if node.id == "scalar":
-        return expression(node.value, Place(source, _line(node), name))
+        return expression(node.value, Spot(source, _line(node), name))
     if node.id != "sequence":
         remedy = "write a list of {when: 0 <= t <= 1, rate: 0.1*t}, or one rate for all times"
-        raise Place(source, _line(node), name).error("profile-format", "is no list of pieces", remedy)
+        raise Spot(source, _line(node), name).error("profile-format", "is no list of pieces", remedy)
     found = []
     for i, each in enumerate(node.value, 1):
-        place = Place(source, _line(each), f"{name}, piece {i}")
+        place = Spot(source, _line(each), f"{name}, piece {i}")
         parts = dict(_entries(each, place, ("when", "rate"), required=("when", "rate")))
         for key, part in parts.items():
             if part.id != "scalar":
@@ -80,7 +80,7 @@ def _rates(name: str, node: yaml.Node, source: str) -> list[Piece] | Expression:
 
 
 def _entries(
-    node: yaml.Node | None, place: Place, known: tuple[str, ...] = (), required: tuple[str, ...] = ()
+    node: yaml.Node | None, place: Spot, known: tuple[str, ...] = (), required: tuple[str, ...] = ()
 ) -> Iterator[tuple[str, yaml.Node]]:
     """The entries of a mapping, each key once and, if some are known, one of them."""
     if node is None or node.id != "mapping":
@@ -89,7 +89,7 @@ def _entries(
     seen: set[str] = set()
     for key, value in node.value:
         name = key.value if key.id == "scalar" else "?"
-        where = Place(place.source, _line(key), place.element)
+        where = Spot(place.source, _line(key), place.element)
         if name in seen:
             raise where.error("duplicate-name", f"{name!r} is there twice", "remove one of them")
         if known and name not in known:
@@ -118,7 +118,7 @@ def _table(text: str, source: str, between: Between) -> Samples:
             cells = [cell.strip() for cell in row]
             if not any(cells):
                 continue
-            place = Place(source, rows.line_num)
+            place = Spot(source, rows.line_num)
             if not header:
                 header = _header(cells, place)
                 continue
@@ -130,14 +130,14 @@ def _table(text: str, source: str, between: Between) -> Samples:
                 what = f"t = {values[-1][0]:g} s comes after {values[-2][0]:g} s"
                 raise place.error("profile-table", what, "times must increase from row to row")
     except csv.Error as error:
-        raise Place(source, rows.line_num).error("profile-table", f"is no CSV ({error})") from None
+        raise Spot(source, rows.line_num).error("profile-table", f"is no CSV ({error})") from None
     if len(values) < 2:
         what = f"{len(values)} rows of numbers"
-        raise Place(source).error("profile-table", what, "expected a header t,joint1,… and at least two rows")
+        raise Spot(source).error("profile-table", what, "expected a header t,joint1,… and at least two rows")
     return Samples(header[1:], [row[0] for row in values], [row[1:] for row in values], between, source)
 
 
-def _header(cells: list[str], place: Place) -> list[str]:
+def _header(cells: list[str], place: Spot) -> list[str]:
     if cells[0] != "t":
         raise place.error("profile-table", f"the first column is {cells[0]!r}", "expected a header t,joint1,…")
     for i, name in enumerate(cells):
@@ -148,7 +148,7 @@ def _header(cells: list[str], place: Place) -> list[str]:
     return cells
 
 
-def _number(cell: str, name: str, place: Place) -> float:
+def _number(cell: str, name: str, place: Spot) -> float:
     try:
         value = float(cell) if "_" not in cell else math.nan
     except ValueError:

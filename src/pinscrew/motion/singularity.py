@@ -24,7 +24,7 @@ from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.lie._checks import read, require_finite
+from pinscrew.lie.checks import read, require_finite
 from pinscrew.lie.screw import Screw
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
 from pinscrew.robot.loading import RobotLike, robot_of

@@ -14,7 +14,7 @@ from pinscrew.engines.poe import PoE
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion.bundled_profiles import ASSIGNMENT, named
-from pinscrew.motion.integration import Rates, integrate
+from pinscrew.motion.integration import GivenRates, integrate
 from pinscrew.motion.inverse_velocity import InverseVelocity, Method, inverse_velocity
 from pinscrew.motion.profile import Profile
 from pinscrew.motion.samples import Between
@@ -71,7 +71,7 @@ class Track:
 
 def track(
     robot: RobotLike,
-    profile: Rates | str | Path = ASSIGNMENT,
+    profile: GivenRates | str | Path = ASSIGNMENT,
     dt: float = 0.01,
     scheme: Scheme = "exponential",
     *,

@@ -15,7 +15,7 @@ from pinscrew.ground.typing import FloatArray, JacobianKind
 from pinscrew.view import scene
 from pinscrew.view.mesh_files import MeshPart
 from pinscrew.view.model import Body, Model
-from pinscrew.view.shapes import COLORS, GROUPS, Group, Placed
+from pinscrew.view.shapes import COLORS, GROUPS, Group, PlacedShape
 
 __all__ = ["Animation", "State", "document", "to_text"]
 
@@ -150,7 +150,7 @@ def _body(body: Body) -> Json:
     }
 
 
-def _part(part: Placed) -> Json:
+def _part(part: PlacedShape) -> Json:
     shape = part.shape
     found: Json = {
         "name": part.name,

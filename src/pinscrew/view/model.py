@@ -16,7 +16,7 @@ from pinscrew.lie import se3
 from pinscrew.robot.robot import Robot
 from pinscrew.view import twists
 from pinscrew.view.mesh_files import Mesh, MeshPart
-from pinscrew.view.shapes import COLORS, Group, Placed, Shape, stretch
+from pinscrew.view.shapes import COLORS, Group, PlacedShape, Shape, stretch
 
 __all__ = ["Body", "Model", "Scales", "default_tip", "samples"]
 
@@ -42,7 +42,7 @@ class Body:
     owner: str
     motion: int
     home: FloatArray
-    parts: tuple[Placed, ...]
+    parts: tuple[PlacedShape, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ class Model:
             UnknownNameError: if there is no frame ``tip``.
         """
         tip = default_tip(robot) if tip is None else robot.frame(tip)
-        solids: dict[str, list[Placed]] = {name: [] for name in robot.frame_names}
+        solids: dict[str, list[PlacedShape]] = {name: [] for name in robot.frame_names}
         parts: list[MeshPart] = []
         for visual in looks.visuals:
             placed = solids[visual.link]
@@ -142,7 +142,7 @@ def samples(robot: Robot, count: int, size: float, seed: int = 0) -> FloatArray:
     return q
 
 
-def _solid(visual: Visual, meshes: Mapping[Visual, Mesh], parts: list[MeshPart], start: int) -> list[Placed]:
+def _solid(visual: Visual, meshes: Mapping[Visual, Mesh], parts: list[MeshPart], start: int) -> list[PlacedShape]:
     """The parts of a visual, named by numbers from ``start``; new meshes are added to ``parts``."""
     geometry, T = visual.geometry, visual.T_link_visual
     color = visual.color or DEFAULT_COLOR
@@ -153,7 +153,7 @@ def _solid(visual: Visual, meshes: Mapping[Visual, Mesh], parts: list[MeshPart],
                 parts.append(part)
             own = part.color or visual.color or DEFAULT_COLOR  # as RViz: a mesh's own colours come first
             scaled = T @ stretch(*geometry.size)
-            placed.append(Placed(str(start + i), Shape("mesh", mesh=parts.index(part)), scaled, own))
+            placed.append(PlacedShape(str(start + i), Shape("mesh", mesh=parts.index(part)), scaled, own))
         return placed
     if geometry.kind == "box":
         shapes = [("box", T @ stretch(*geometry.size))]
@@ -168,14 +168,14 @@ def _solid(visual: Visual, meshes: Mapping[Visual, Mesh], parts: list[MeshPart],
                 at = np.eye(4)
                 at[2, 3] = end
                 shapes.append(("sphere", T @ at @ stretch(r, r, r)))
-    return [Placed(str(start + i), Shape(kind), M, color) for i, (kind, M) in enumerate(shapes)]  # type: ignore[arg-type]
+    return [PlacedShape(str(start + i), Shape(kind), M, color) for i, (kind, M) in enumerate(shapes)]  # type: ignore[arg-type]
 
 
-def _frame(name: str, size: float, *, main: bool) -> tuple[Placed, ...]:
+def _frame(name: str, size: float, *, main: bool) -> tuple[PlacedShape, ...]:
     """Axes and label of a link's frame; those of the base and the tip are longer."""
     length, radius = (0.17, 0.0055) if main else (0.11, 0.004)
     axes = twists.triad(length * size, radius * size, COLORS)
-    label = Placed("label", Shape("label", text=name), np.eye(4), (0.1, 0.1, 0.12, 1.0))
+    label = PlacedShape("label", Shape("label", text=name), np.eye(4), (0.1, 0.1, 0.12, 1.0))
     return (*axes, label)
 
 
@@ -190,12 +190,12 @@ def _axes(robot: Robot, size: float) -> list[Body]:
         parts = twists.screw("", line, size, color)
         at = np.eye(4)
         at[:3, 3] = line.point + 1.06 * twists.FRONT * size * line.direction
-        parts.append(Placed("label", Shape("label", text=motion.joint.name), at, color))
+        parts.append(PlacedShape("label", Shape("label", text=motion.joint.name), at, color))
         bodies.append(Body("screws", motion.joint.name, motion.parent, np.eye(4), tuple(parts)))
     return bodies
 
 
-def _size(robot: Robot, solids: Mapping[str, Sequence[Placed]], meshes: Sequence[MeshPart]) -> float:
+def _size(robot: Robot, solids: Mapping[str, Sequence[PlacedShape]], meshes: Sequence[MeshPart]) -> float:
     """The reach, but three quarters of the extent at zero at least, and all of it at most.
 
     A lead screw has no reach, and the reach of an arm that is folded at zero is longer than the arm.

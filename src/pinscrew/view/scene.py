@@ -14,7 +14,7 @@ from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.view import twists
 from pinscrew.view.model import Model, displacement, samples
-from pinscrew.view.shapes import COLORS, Drawable, Group, Placed, Scene, Shape
+from pinscrew.view.shapes import COLORS, Drawable, Group, PlacedShape, Scene, Shape
 
 __all__ = ["arrow_scales", "build", "cloud", "default_rates", "trail"]
 
@@ -66,7 +66,7 @@ def build(
         for part in body.parts
     ]
 
-    def add(group: Group, owner: str, *parts: Placed) -> None:
+    def add(group: Group, owner: str, *parts: PlacedShape) -> None:
         drawables.extend(Drawable(group, owner, part.name, part.shape, part.transform, part.color) for part in parts)
 
     J = engine.jacobian(q, tip, "spatial")
@@ -84,9 +84,9 @@ def build(
     add("circles", tip, *_circles("sum-", twist, at, size, seconds[0], 1.7))
     add("ellipsoid", tip, *_ellipsoids(model, engine.jacobian(q, tip, "hybrid")[:3], at))
     trace = trail(model, q, tip) if trace is None else np.asarray(trace, dtype=np.float64)
-    add("trace", tip, Placed("line", Shape("line", points=trace), np.eye(4), COLORS["trace"]))
+    add("trace", tip, PlacedShape("line", Shape("line", points=trace), np.eye(4), COLORS["trace"]))
     workspace = cloud(model, tip) if workspace is None else np.asarray(workspace, dtype=np.float64)
-    add("workspace", tip, Placed("points", Shape("points", points=workspace), np.eye(4), COLORS["workspace"]))
+    add("workspace", tip, PlacedShape("points", Shape("points", points=workspace), np.eye(4), COLORS["workspace"]))
     poses = {name: moved[robot.mechanism.motion_above[name]] @ robot.home(name) for name in robot.frame_names}
     return Scene(poses, {drawable.path: drawable for drawable in drawables})
 
@@ -143,7 +143,7 @@ def _compound(model: Model, tip: str) -> list[int]:
     return sorted({v for v in driven if driven.count(v) > 1})
 
 
-def _tip_velocity(twist: FloatArray, at: FloatArray, size: float, seconds: tuple[float, float]) -> list[Placed]:
+def _tip_velocity(twist: FloatArray, at: FloatArray, size: float, seconds: tuple[float, float]) -> list[PlacedShape]:
     line = twists.line_of(twist, at, size)
     if np.linalg.norm(line.point - at) > twists.FARTHEST * size:
         line = twists.Line(at, np.zeros(3), line.pitch, line.velocity)
@@ -154,7 +154,9 @@ def _tip_velocity(twist: FloatArray, at: FloatArray, size: float, seconds: tuple
     ]
 
 
-def _circles(name: str, twist: FloatArray, at: FloatArray, size: float, seconds: float, bold: float) -> list[Placed]:
+def _circles(
+    name: str, twist: FloatArray, at: FloatArray, size: float, seconds: float, bold: float
+) -> list[PlacedShape]:
     base = np.zeros(3)
     return [
         *twists.circle(f"{name}spatial", twist, base, size, seconds, COLORS["spatial"], bold=bold),
@@ -162,7 +164,7 @@ def _circles(name: str, twist: FloatArray, at: FloatArray, size: float, seconds:
     ]
 
 
-def _ellipsoids(model: Model, J: FloatArray, at: FloatArray) -> list[Placed]:
+def _ellipsoids(model: Model, J: FloatArray, at: FloatArray) -> list[PlacedShape]:
     """The tip's velocities for velocities of norm 1, and for such as the joints' velocity limits allow."""
     found = []
     for name, weights in (("manipulability", np.ones(model.robot.nv)), ("velocity", model.scales.limits)):

@@ -15,7 +15,7 @@ import numpy as np
 from pinscrew.description.visuals import Color
 from pinscrew.ground.typing import FloatArray
 
-__all__ = ["COLORS", "GROUPS", "Drawable", "Group", "Placed", "Scene", "Shape"]
+__all__ = ["COLORS", "GROUPS", "Drawable", "Group", "PlacedShape", "Scene", "Shape"]
 
 Kind: TypeAlias = Literal["box", "cylinder", "sphere", "mesh", "rod", "cone", "coil", "label", "line", "points"]
 
@@ -89,7 +89,7 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedShape:
     """A shape with its transform in the frame of whatever it is a part of.
 
     Attributes:

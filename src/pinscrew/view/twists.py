@@ -16,7 +16,7 @@ import numpy as np
 
 from pinscrew.description.visuals import Color
 from pinscrew.ground.typing import FloatArray
-from pinscrew.view.shapes import Placed, Shape, stretch
+from pinscrew.view.shapes import PlacedShape, Shape, stretch
 
 __all__ = ["Line", "arrow", "circle", "ellipsoid", "frame_along", "line_of", "screw"]
 
@@ -90,25 +90,25 @@ def line_of(twist: FloatArray, at: FloatArray, size: float) -> Line:
     return Line(at + np.cross(w, velocity) / rate**2, w / rate, pitch, velocity)
 
 
-def arrow(name: str, at: FloatArray, vector: FloatArray, radius: float, color: Color) -> list[Placed]:
+def arrow(name: str, at: FloatArray, vector: FloatArray, radius: float, color: Color) -> list[PlacedShape]:
     """An arrow from ``at`` along ``vector``, of its length; a short one is thinner."""
     length = float(np.linalg.norm(vector))
     if length <= NEGLIGIBLE * radius:
         nothing = _nothing(at)
         return [
-            Placed(f"{name}-shaft", Shape("rod"), nothing, color),
-            Placed(f"{name}-head", Shape("cone"), nothing, color),
+            PlacedShape(f"{name}-shaft", Shape("rod"), nothing, color),
+            PlacedShape(f"{name}-head", Shape("cone"), nothing, color),
         ]
     r = radius * min(1.0, length / (10.0 * radius))
     head = 5.0 * r
     T = frame_along(at, vector / length)
     return [
-        Placed(f"{name}-shaft", Shape("rod"), T @ stretch(r, r, length - head), color),
-        Placed(f"{name}-head", Shape("cone"), T @ _up(length - head) @ stretch(2.5 * r, 2.5 * r, head), color),
+        PlacedShape(f"{name}-shaft", Shape("rod"), T @ stretch(r, r, length - head), color),
+        PlacedShape(f"{name}-head", Shape("cone"), T @ _up(length - head) @ stretch(2.5 * r, 2.5 * r, head), color),
     ]
 
 
-def screw(name: str, line: Line, size: float, color: Color, *, bigger: float = 1.0) -> list[Placed]:
+def screw(name: str, line: Line, size: float, color: Color, *, bigger: float = 1.0) -> list[PlacedShape]:
     """The axis of a screw as an arrow, with a coil that advances by the pitch; for a translation a thick arrow alone.
 
     A coil has three turns, or as many as fit along the axis. At pitch 0 it is a ring, open so that it has a sense.
@@ -128,13 +128,21 @@ def screw(name: str, line: Line, size: float, color: Color, *, bigger: float = 1
     if hidden:
         nothing = _nothing(line.point)
         axis = arrow(f"{name}axis", line.point, np.zeros(3), tube, color)
-        return [*axis, Placed(f"{name}coil", coil, nothing, color), Placed(f"{name}tip", Shape("cone"), nothing, color)]
+        return [
+            *axis,
+            PlacedShape(f"{name}coil", coil, nothing, color),
+            PlacedShape(f"{name}tip", Shape("cone"), nothing, color),
+        ]
     T = frame_along(line.point, line.direction)
     thick = tube if math.isfinite(line.pitch) else 1.8 * tube
     axis = arrow(f"{name}axis", line.point - back * line.direction, (back + front) * line.direction, thick, color)
     if not math.isfinite(line.pitch):
         nothing = _nothing(line.point)
-        return [*axis, Placed(f"{name}coil", coil, nothing, color), Placed(f"{name}tip", Shape("cone"), nothing, color)]
+        return [
+            *axis,
+            PlacedShape(f"{name}coil", coil, nothing, color),
+            PlacedShape(f"{name}tip", Shape("cone"), nothing, color),
+        ]
     T_coil = T @ _up(COIL_AT * front - max(turns * lead, 0.0)) @ stretch(radius, radius, radius)
     end = 2.0 * math.pi * turns
     tangent = np.array([-math.sin(end), math.cos(end), rise]) / math.hypot(1.0, rise)
@@ -142,14 +150,14 @@ def screw(name: str, line: Line, size: float, color: Color, *, bigger: float = 1
     head = 5.0 * tube / radius
     return [
         *axis,
-        Placed(f"{name}coil", coil, T_coil, color),
-        Placed(f"{name}tip", Shape("cone"), T_coil @ T_tip @ stretch(0.5 * head, 0.5 * head, head), color),
+        PlacedShape(f"{name}coil", coil, T_coil, color),
+        PlacedShape(f"{name}tip", Shape("cone"), T_coil @ T_tip @ stretch(0.5 * head, 0.5 * head, head), color),
     ]
 
 
 def circle(
     name: str, twist: FloatArray, at: FloatArray, size: float, seconds: float, color: Color, *, bold: float = 1.0
-) -> list[Placed]:
+) -> list[PlacedShape]:
     """The "circle drawing" of a velocity: the circle about the screw axis through ``at``, and the velocity there.
 
     The velocity's arrow is tangent to the circle, but for a pitch, which leads it out of the circle's plane. A
@@ -177,12 +185,12 @@ def circle(
         T_ring = T @ stretch(radius, radius, radius)
         thin = 0.5 * RING_TUBE * bold * size
         T_spoke = frame_along(line.point, x) @ stretch(thin, thin, radius)
-    parts.append(Placed(f"{name}-circle", Shape("coil", ring), T_ring, color))
-    parts.append(Placed(f"{name}-spoke", Shape("rod"), T_spoke, color))
+    parts.append(PlacedShape(f"{name}-circle", Shape("coil", ring), T_ring, color))
+    parts.append(PlacedShape(f"{name}-spoke", Shape("rod"), T_spoke, color))
     return parts
 
 
-def ellipsoid(name: str, at: FloatArray, J: FloatArray, scale: float, thinnest: float, color: Color) -> Placed:
+def ellipsoid(name: str, at: FloatArray, J: FloatArray, scale: float, thinnest: float, color: Color) -> PlacedShape:
     """The image of the unit ball under ``scale * J``, at least ``thinnest`` thick: the ball times (J Jᵀ)^½.
 
     Args:
@@ -198,15 +206,15 @@ def ellipsoid(name: str, at: FloatArray, J: FloatArray, scale: float, thinnest: 
     T = np.eye(4)
     T[:3, :3] = (U * half_axes) @ U.T
     T[:3, 3] = at
-    return Placed(name, Shape("sphere"), T, color)
+    return PlacedShape(name, Shape("sphere"), T, color)
 
 
-def triad(length: float, radius: float, colors: Mapping[str, Color]) -> Sequence[Placed]:
+def triad(length: float, radius: float, colors: Mapping[str, Color]) -> Sequence[PlacedShape]:
     """The axes of a frame, as rods in its own colours, in the frame."""
     places = []
     for i, name in enumerate("xyz"):
         T = frame_along(np.zeros(3), np.eye(3)[i])
-        places.append(Placed(name, Shape("rod"), T @ stretch(radius, radius, length), colors[name]))
+        places.append(PlacedShape(name, Shape("rod"), T @ stretch(radius, radius, length), colors[name]))
     return places
 
 

@@ -15,11 +15,11 @@ from pinscrew.ground.errors import InputError, MissingExtraError, UnknownNameErr
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Axis", "Ranges", "Steps", "axes", "grid_counts", "grid_points", "sobol", "spread"]
+__all__ = ["Axis", "GridSteps", "Ranges", "axes", "grid_counts", "grid_points", "sobol", "spread"]
 
 Ranges: TypeAlias = Mapping[str, tuple[float, float]]
 """Lower and upper end by coordinate, rad or m."""
-Steps: TypeAlias = float | Mapping[str, float]
+GridSteps: TypeAlias = float | Mapping[str, float]
 """The step of a grid for all angles (rad), or for each coordinate by name (rad or m)."""
 
 ROUNDING: Final = 1e-9
@@ -104,7 +104,7 @@ def _axis(robot: Robot, index: int, given: Ranges) -> Axis:
     return Axis(name, index, lower, upper, angle)
 
 
-def grid_counts(axes: Sequence[Axis], steps: Steps) -> list[int]:
+def grid_counts(axes: Sequence[Axis], steps: GridSteps) -> list[int]:
     """How many values a grid has on each axis.
 
     Both ends of a range are in it, but for one end of a full turn; a step that does not divide the range is
@@ -122,7 +122,7 @@ def grid_counts(axes: Sequence[Axis], steps: Steps) -> list[int]:
     return [_count(axis, steps) for axis in axes]
 
 
-def _count(axis: Axis, steps: Steps) -> int:
+def _count(axis: Axis, steps: GridSteps) -> int:
     step = steps.get(axis.name) if isinstance(steps, Mapping) else steps if axis.angle else None
     span = axis.upper - axis.lower
     if span == 0.0:

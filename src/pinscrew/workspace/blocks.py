@@ -19,14 +19,14 @@ from pinscrew.workspace.axes import Axis, spread
 from pinscrew.workspace.measures import manipulability
 from pinscrew.workspace.voxels import Voxels, direction_bits, voxel_keys
 
-__all__ = ["BLOCK", "Task", "block_count", "run_pickled"]
+__all__ = ["BLOCK", "MapTask", "block_count", "run_pickled"]
 
 BLOCK: Final = 2**16
 """Configurations of a block: a tenth of a second's work, whose result is a few hundred kilobytes."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Task:
+class MapTask:
     """What is done for every block.
 
     Attributes:
@@ -74,11 +74,11 @@ def block_count(samples: int) -> int:
 
 
 def run_pickled(task: bytes, block: int) -> Voxels:
-    """`Task.run` of a pickled task, which each process loads once."""
+    """`MapTask.run` of a pickled task, which each process loads once."""
     return _loaded(task).run(block)
 
 
 @lru_cache(maxsize=1)
-def _loaded(task: bytes) -> Task:
-    loaded: Task = pickle.loads(task)  # noqa: S301 (from the process that sends the block)
+def _loaded(task: bytes) -> MapTask:
+    loaded: MapTask = pickle.loads(task)  # noqa: S301 (from the process that sends the block)
     return loaded

@@ -23,7 +23,7 @@ from pinscrew.ground.processes import job_count, process_pool
 from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import Ranges, axes
-from pinscrew.workspace.blocks import BLOCK, Task, block_count, run_pickled
+from pinscrew.workspace.blocks import BLOCK, MapTask, block_count, run_pickled
 from pinscrew.workspace.measures import generic_ranks
 from pinscrew.workspace.reachability_map import Done, ReachabilityMap, read_map, unfinished, write_map
 from pinscrew.workspace.voxels import Gathering, Voxels
@@ -100,7 +100,7 @@ def reachability(
     metadata |= {"voxel": voxel, "samples": samples, "seed": seed, "block": BLOCK, "rank": rank}
     file = None if path is None else Path(path)
     voxels, done = _begun(file, metadata, resume)
-    task = Task(engine, frame, found, rank, samples, seed, voxel)
+    task = MapTask(engine, frame, found, rank, samples, seed, voxel)
     record = _Record(file, metadata, Gathering(voxels), done)
     advance = advance or (lambda _: None)
     given = process_pool(jobs) if executor is None else nullcontext((executor, jobs))
@@ -182,7 +182,7 @@ def _begun(file: Path | None, metadata: archive.Metadata, resume: bool) -> tuple
     return voxels, done
 
 
-def _results(executor: Executor, ahead: int, task: Task, blocks: NDArray[np.intp]) -> _Results:
+def _results(executor: Executor, ahead: int, task: MapTask, blocks: NDArray[np.intp]) -> _Results:
     """The voxels of each block as they come, with at most ``ahead`` asked for at a time."""
     pickled = pickle.dumps(task)
     waiting = iter(blocks.tolist())

@@ -19,7 +19,7 @@ from pinscrew.ground.typing import FloatArray, KindLike, jacobian_kind
 from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.workspace import archive
-from pinscrew.workspace.axes import Ranges, Steps, axes, grid_counts, grid_points, sobol
+from pinscrew.workspace.axes import GridSteps, Ranges, axes, grid_counts, grid_points, sobol
 from pinscrew.workspace.measures import Measures, generic_ranks
 
 __all__ = ["SAMPLES", "STEP", "Sweep", "sweep"]
@@ -97,7 +97,7 @@ class Sweep:
 def sweep(
     robot: RobotLike,
     *,
-    grid: Steps | None = None,
+    grid: GridSteps | None = None,
     samples: float | None = None,
     seed: int = 0,
     frame: str | None = None,

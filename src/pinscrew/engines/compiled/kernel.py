@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from pinscrew.engines.compiled.lanes import Lanes, double, integer, intrinsic
 from pinscrew.engines.compiled.machine import Compiled, lanes
-from pinscrew.engines.compiled.walk import Number
+from pinscrew.engines.compiled.walk import LaneNumber
 
 __all__ = ["CHUNK", "Kernel", "Rows"]
 
@@ -36,7 +36,7 @@ STREAMED: Final = 2**24
 LINE: Final = 64
 """Bytes of a cache line."""
 
-Rows: TypeAlias = Callable[[list[Lanes]], tuple[Sequence[Sequence[Number]], list[ir.Value]]]
+Rows: TypeAlias = Callable[[list[Lanes]], tuple[Sequence[Sequence[LaneNumber]], list[ir.Value]]]
 """From coordinates to one row of numbers per output, and vectors of bits that are all set if the input was good."""
 
 _pointer: Final = ir.PointerType()
@@ -194,7 +194,7 @@ class _Writer:
             vectors.append(Lanes(self.build, vector))
         return vectors
 
-    def _store_transposed(self, row: Sequence[Number], place: ir.Value) -> None:
+    def _store_transposed(self, row: Sequence[LaneNumber], place: ir.Value) -> None:
         """Store rows side by side, lane after lane."""
         for start in range(0, len(row), self.width):
             numbers = [self._vector(number) for number in row[start : start + self.width]]
@@ -203,7 +203,7 @@ class _Writer:
             for lane, vector in enumerate(self._transposed(numbers)):
                 self._store_first(vector, self.width - missing, self._at(place, integer(lane * len(row) + start)))
 
-    def _vector(self, number: Number) -> ir.Value:
+    def _vector(self, number: LaneNumber) -> ir.Value:
         wide = ir.VectorType(double, self.width)
         value = number.value if isinstance(number, Lanes) else ir.Constant(wide, [float(number)] * self.width)
         return value if self.target == double else self.build.fptrunc(value, ir.VectorType(self.target, self.width))

@@ -12,7 +12,7 @@ from llvmlite import ir
 from pinscrew.engines.compiled.chain import LARGEST_ANGLE, Chain, Part, Question
 from pinscrew.engines.compiled.kernel import Kernel, Rows
 from pinscrew.engines.compiled.lanes import Lanes
-from pinscrew.engines.compiled.walk import Move, Number, columns, manipulability, pose
+from pinscrew.engines.compiled.walk import JointMove, LaneNumber, columns, manipulability, pose
 
 __all__ = ["compile_kernel", "rows_of"]
 
@@ -35,13 +35,13 @@ def compile_kernel(chains: Sequence[Chain], question: Question, nq: int, nv: int
 def rows_of(chains: Sequence[Chain], question: Question, nv: int) -> Rows:
     """The arithmetic from coordinates to the parts of the answer; see `compile_kernel`."""
 
-    def rows(q: list[Lanes]) -> tuple[list[list[Number]], list[ir.Value]]:
+    def rows(q: list[Lanes]) -> tuple[list[list[LaneNumber]], list[ir.Value]]:
         good = [x.within(sys.float_info.max) for x in q]
         one = Lanes(q[0].build, q[0].constant(1.0))
-        turns: dict[tuple[int, float], tuple[Number, Number]] = {}
+        turns: dict[tuple[int, float], tuple[LaneNumber, LaneNumber]] = {}
         answers = []
         for chain in chains:
-            moves: list[Move] = []
+            moves: list[JointMove] = []
             for step in chain.steps:
                 source, multiplier = key = step.motion.q, step.motion.multiplier
                 value = multiplier * q[source]
@@ -58,12 +58,12 @@ def rows_of(chains: Sequence[Chain], question: Question, nv: int) -> Rows:
     return rows
 
 
-def _about(chain: Chain, question: Question, moves: Sequence[Move], nv: int, one: Lanes) -> list[list[Number]]:
+def _about(chain: Chain, question: Question, moves: Sequence[JointMove], nv: int, one: Lanes) -> list[list[LaneNumber]]:
     """The numbers of one frame's pose, Jacobian and manipulability, as far as they are asked for."""
     if question.kind is None and question.part is None:
         return [_pose_row(*pose(chain, moves))]
     twists, found = columns(chain, question.kind or "body", moves)
-    J: list[list[Number]] = [[0.0] * nv for _ in range(6)]
+    J: list[list[LaneNumber]] = [[0.0] * nv for _ in range(6)]
     for step, (v, w) in zip(chain.steps, twists, strict=True):
         for row, number in zip(J, [*v, *w], strict=True):
             row[step.motion.v] = row[step.motion.v] + step.motion.multiplier * number
@@ -76,11 +76,11 @@ def _about(chain: Chain, question: Question, moves: Sequence[Move], nv: int, one
     return parts
 
 
-def _pose_row(R: Sequence[Sequence[Number]], p: Sequence[Number]) -> list[Number]:
+def _pose_row(R: Sequence[Sequence[LaneNumber]], p: Sequence[LaneNumber]) -> list[LaneNumber]:
     return [number for row in zip(*R, p, strict=True) for number in row] + [0.0, 0.0, 0.0, 1.0]
 
 
-def _manipulability(J: list[list[Number]], moving: Sequence[int], one: Lanes) -> Number:
+def _manipulability(J: list[list[LaneNumber]], moving: Sequence[int], one: Lanes) -> LaneNumber:
     """The product of the singular values of some rows of the Jacobian, without the columns that move nothing."""
     rows = [[row[i] for i in moving] for row in J]
     vectors = rows if len(moving) > len(rows) else [list(column) for column in zip(*rows, strict=True)]

@@ -15,12 +15,12 @@ from pinscrew.engines.compiled.chain import Chain, Step
 from pinscrew.ground.typing import FloatArray, JacobianKind
 from pinscrew.lie import se3
 
-__all__ = ["Move", "Number", "Pose", "Twist", "columns", "manipulability", "pose"]
+__all__ = ["JointMove", "LaneNumber", "Pose", "Twist", "columns", "manipulability", "pose"]
 
-Number: TypeAlias = Any
+LaneNumber: TypeAlias = Any
 """A float or something that computes like one."""
-Vector: TypeAlias = list[Number]
-Move: TypeAlias = tuple[Number, Number, Number]
+Vector: TypeAlias = list[LaneNumber]
+JointMove: TypeAlias = tuple[LaneNumber, LaneNumber, LaneNumber]
 """What a joint does along or about its axis: the cosine and sine of its angle, and how far it slides."""
 Twist: TypeAlias = tuple[Vector, Vector]
 """(v, ω)."""
@@ -28,7 +28,7 @@ Pose: TypeAlias = tuple[list[Vector], Vector]
 """The columns of the rotation, and the position."""
 
 
-def pose(chain: Chain, moves: Sequence[Move]) -> Pose:
+def pose(chain: Chain, moves: Sequence[JointMove]) -> Pose:
     """The frame's pose in the base; one move for each step."""
     frame = _Frame.of(chain.start)
     for step, move in zip(chain.steps, moves, strict=True):
@@ -38,7 +38,7 @@ def pose(chain: Chain, moves: Sequence[Move]) -> Pose:
     return [frame.x, frame.y, frame.z], frame.p
 
 
-def columns(chain: Chain, kind: JacobianKind, moves: Sequence[Move]) -> tuple[list[Twist], Pose]:
+def columns(chain: Chain, kind: JacobianKind, moves: Sequence[JointMove]) -> tuple[list[Twist], Pose]:
     """The Jacobian's column of each step, before multipliers, and the frame's pose in the base.
 
     For the body Jacobian the chain is walked from the frame to the base: there the axes of the joints appear in the
@@ -58,7 +58,7 @@ def columns(chain: Chain, kind: JacobianKind, moves: Sequence[Move]) -> tuple[li
     return [_column(*line) for line in lines], ([frame.x, frame.y, frame.z], frame.p)
 
 
-def manipulability(vectors: Sequence[Vector], one: Number) -> Number:
+def manipulability(vectors: Sequence[Vector], one: LaneNumber) -> LaneNumber:
     """The square of the product of the singular values of a matrix, by Gram and Schmidt.
 
     Args:
@@ -77,7 +77,7 @@ def manipulability(vectors: Sequence[Vector], one: Number) -> Number:
     return square
 
 
-def _body_columns(chain: Chain, moves: Sequence[Move]) -> tuple[list[Twist], Pose]:
+def _body_columns(chain: Chain, moves: Sequence[JointMove]) -> tuple[list[Twist], Pose]:
     frame = _Frame.of(np.eye(4))
     cos, sin = chain.last
     frame.turn(cos, -sin)
@@ -112,7 +112,7 @@ class _Frame:
     def of(cls, T: FloatArray) -> _Frame:
         return cls(*([float(value) for value in T[:3, i]] for i in range(4)))
 
-    def joint(self, step: Step, move: Move, *, back: bool = False) -> None:
+    def joint(self, step: Step, move: JointMove, *, back: bool = False) -> None:
         """Move with a joint, and by its step's constant turn about the same axis; or back."""
         sign = -1.0 if back else 1.0
         cos, sin, slide = move
@@ -131,7 +131,7 @@ class _Frame:
         if not back:
             self._tilt(c, s)
 
-    def turn(self, c: Number, s: Number) -> None:
+    def turn(self, c: LaneNumber, s: LaneNumber) -> None:
         """Turn about z."""
         pairs = list(zip(self.x, self.y, strict=True))
         self.x, self.y = [c * x + s * y for x, y in pairs], [c * y - s * x for x, y in pairs]
@@ -148,12 +148,12 @@ class _Frame:
         pairs = list(zip(self.y, self.z, strict=True))
         self.y, self.z = [c * y + s * z for y, z in pairs], [c * z - s * y for y, z in pairs]
 
-    def _shift(self, axis: Vector, distance: Number) -> None:
+    def _shift(self, axis: Vector, distance: LaneNumber) -> None:
         self.p = [p + distance * a for p, a in zip(self.p, axis, strict=True)]
 
 
-def _dot(a: Vector, b: Vector) -> Number:
-    total: Number = 0.0
+def _dot(a: Vector, b: Vector) -> LaneNumber:
+    total: LaneNumber = 0.0
     for x, y in zip(a, b, strict=True):
         total = total + x * y
     return total
