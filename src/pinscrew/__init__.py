@@ -22,8 +22,7 @@ from pinscrew.ground.version import __version__
 
 if TYPE_CHECKING:
     from pinscrew import lie
-    from pinscrew.changes.changes import Changes
-    from pinscrew.changes.run import diff
+    from pinscrew.changes.run import Changes, diff
     from pinscrew.derivation.run import derive
     from pinscrew.engines.base import Engine
     from pinscrew.engines.compiled.batch import Batch
@@ -89,7 +88,7 @@ __all__ = [
 # Where each public name lives: parsers and engines are heavy, and load when first used.
 _HOMES = {
     "Batch": "pinscrew.engines.compiled.batch",
-    "Changes": "pinscrew.changes.changes",
+    "Changes": "pinscrew.changes.run",
     "Engine": "pinscrew.engines.base",
     "InverseVelocity": "pinscrew.motion.inverse_velocity",
     "Pinocchio": "pinscrew.engines.pinocchio",

@@ -12,7 +12,7 @@ import pinscrew as ps
 import urdfs
 from command_line import ok, refused, run
 from pinscrew import lockfile
-from pinscrew.changes import settings
+from pinscrew.changes import gates
 from pinscrew.changes.gates import GATES
 from pinscrew.ground.errors import DescriptionError, InputError
 
@@ -211,7 +211,7 @@ def test_settings(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (here / "sub" / ".git").mkdir()
     assert run("diff", "../before.urdf", "../arm.urdf").status == 0, "another repository"
     (here / "sub" / "pyproject.toml").write_text('[tool.other]\nfail_on = ["names"]\n')
-    assert settings.fail_on(here / "sub") == frozenset()
+    assert gates.fail_on(here / "sub") == frozenset()
 
 
 @pytest.mark.parametrize(
@@ -227,7 +227,7 @@ def test_settings(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_wrong_settings(here: Path, text: str, code: str) -> None:
     (here / "pyproject.toml").write_text(text)
     with pytest.raises(InputError) as caught:
-        settings.fail_on(here)
+        gates.fail_on(here)
     assert caught.value.code == code
     assert "pyproject.toml" in refused("lock", "--check")
     assert "pyproject.toml" in refused("diff", "before.urdf", "arm.urdf")

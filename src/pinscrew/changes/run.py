@@ -1,23 +1,48 @@
-"""`diff`: what changed between two robots."""
+"""`diff`: what changed between two robots, as `Changes`, which can be printed and written in every format."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Final
 
-from pinscrew.changes.changes import Changes
+from pinscrew.changes.document import document, failing, passes
 from pinscrew.changes.gates import gates
 from pinscrew.changes.measuring import measure
-from pinscrew.changes.outcome import Tolerance
+from pinscrew.changes.outcome import Change, ChangesData, Tolerance
 from pinscrew.changes.wording import worded
 from pinscrew.ground.errors import InputError
+from pinscrew.reporting.document import Document
+from pinscrew.reporting.documented import Documented
 from pinscrew.robot.loading import RobotLike, robot_of
 
-__all__ = ["TOLERANCE", "diff"]
+__all__ = ["TOLERANCE", "Changes", "diff"]
 
 TOLERANCE: Final = 1e-9
 """Metres, and radians, that count as no change unless told otherwise."""
+
+
+@dataclass(frozen=True)
+class Changes(Documented, ChangesData):
+    """What `diff` found between two robots; `ChangesData` lists what it holds. ``print`` shows it as text.
+
+    Its JSON has the schema ``pinscrew.diff/1``, its Markdown a heading and lists.
+    """
+
+    @property
+    def passes(self) -> bool:
+        """Whether the motion is the same, and no note is one to fail on."""
+        return passes(self)
+
+    @property
+    def failing(self) -> tuple[Change, ...]:
+        """The changes, and the notes to fail on."""
+        return failing(self)
+
+    def document(self) -> Document:
+        """The changes in no format yet."""
+        return document(self)
 
 
 def diff(

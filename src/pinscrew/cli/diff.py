@@ -61,7 +61,7 @@ def command(
       pinscrew diff main:./arm.urdf.xacro arm.urdf.xacro --tolerance-mm 0.01
       pinscrew diff scara scara l1:=0.4
     """
-    from pinscrew.changes import settings
+    from pinscrew.changes import gates
     from pinscrew.changes.run import TOLERANCE, diff
 
     named = arguments.robots(words)
@@ -72,7 +72,7 @@ def command(
     except PinscrewError as error:
         wanted.write(_failed(named, error))
         raise
-    to_fail = settings.fail_on(Path.cwd()) if fail_on is None else fail_on
+    to_fail = gates.fail_on(Path.cwd()) if fail_on is None else fail_on
     changes = diff(a, b, length=length, angle=TOLERANCE if angle is None else angle, fail_on=to_fail)
     changes = replace(changes, a=_called(named[0]), b=_called(named[1]), file=_file(named[1], changes.file))
     wanted.write(changes.document())

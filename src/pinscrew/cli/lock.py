@@ -163,14 +163,14 @@ def _holds(path: Path, content: str) -> bool:
 
 
 def _check(words: Sequence[str], fail_on: frozenset[str] | None, wanted: Wanted) -> None:
-    from pinscrew.changes import settings
+    from pinscrew.changes import gates
     from pinscrew.lockfile.checking import check
     from pinscrew.lockfile.document import document
     from pinscrew.reporting import to_json, to_text
 
     options = {name: value for name, value in arguments.options().items() if name != "floating_base"}
     paths = _locks(words)
-    otherwise = settings.fail_on(Path.cwd())
+    otherwise = gates.fail_on(Path.cwd())
     checked: list[LockCheck] = []
     errors: list[tuple[Path, PinscrewError]] = []
     with progress("checking", len(paths)) as advance:

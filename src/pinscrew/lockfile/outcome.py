@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from pinscrew.changes.changes import Changes
+from pinscrew.changes.run import Changes
 from pinscrew.robot.robot import Robot
 
 __all__ = ["LockCheckData"]

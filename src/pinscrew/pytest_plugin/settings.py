@@ -11,8 +11,7 @@ from typing import Any, Final, NoReturn
 
 import pytest
 
-from pinscrew.changes.gates import GATES
-from pinscrew.changes.settings import FILE, SECTION, section
+from pinscrew.changes.gates import FILE, GATES, SECTION, section
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.words import brief, one_line
 
