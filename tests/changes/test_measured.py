@@ -315,6 +315,7 @@ def test_any_two_numbers_are_told_apart(old: float, new: float) -> None:
     assert texts[0] != texts[1]
     assert told_apart(new, old) == texts[::-1]
     assert told_apart(old, old) == (f"{old:.6g}",) * 2
+    assert told_apart(1 / 3, 2.0) == ("0.333333", "2"), "six digits are enough for most"
     assert told_apart(old, 2 * old) == (f"{old:.6g}", f"{2 * old:.6g}")
 
 
