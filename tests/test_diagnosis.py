@@ -156,6 +156,26 @@ def test_limits_are_compared_to_rounding(side: int) -> None:
         assert (structure.compare(*pair(side, edited(text))) == ()) is same, written
 
 
+def hundredfold(shift: str = "30 0 0", axis: str = "0 1 0") -> ps.Robot:
+    joints = (
+        urdfs.joint("j1", "revolute", "base", "l1", xyz="0 0 20"),
+        urdfs.joint("j2", "revolute", "l1", "l2", xyz=shift, axis=axis),
+        urdfs.joint("m", "fixed", "l2", "tool", xyz="50 0 0"),
+    )
+    return urdfs.load(urdfs.robot(*joints, links="base l1 l2 tool"))
+
+
+def test_metres_and_radians_have_tolerances_of_their_own() -> None:
+    """In a robot of 100 m, 5e-11 m are rounding and 1e-11 rad are not."""
+    engines = ps.PoE(hundredfold()), ps.PoE(hundredfold(axis="1e-11 1 0"))
+    assert [line.split(" in PoE")[0] for line in ps.verify(hundredfold(), 20, engines=engines).diagnosis] == [
+        "joint 'j2': its axis is turned by 5.72958e-10° (1e-11 rad)"
+    ]
+    engines = ps.PoE(hundredfold()), ps.PoE(hundredfold("30 1e-9 5e-11"))
+    (line,) = ps.verify(hundredfold(), 20, engines=engines).diagnosis
+    assert line.startswith("joint 'j2': its origin is moved by [0, 1e-06, 0] mm (1.00125e-06 mm)")
+
+
 @SIDES
 def test_joints_swapped(side: int) -> None:
     """The names of two joints are exchanged: each engine then drives the other's joint."""

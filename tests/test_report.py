@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -246,3 +247,12 @@ def test_failures() -> None:
     assert failures(GOOD) == []
     check = Check("x", 0.5, 1e-12, ErrorPlace("tool", "j", "random 3", (0.0,)))
     assert failures(report(check)) == ["x: error 5.0e-01 above 1.0e-12, largest at frame tool, joint j, random 3"]
+
+
+def test_a_failure_without_a_diagnosis_is_a_finding_all_the_same() -> None:
+    failed = replace(BAD, diagnosis=(), blamed=(), lines=(), files=())
+    (finding,) = failed.document().findings
+    assert (finding.rule, finding.level, finding.file, finding.line) == ("disagreement", "error", BAD.file, None)
+    assert finding.message.startswith("the engines disagree (")
+    assert GOOD.document().findings == ()
+    assert len(BAD.document().findings) == len(BAD.diagnosis)

@@ -83,12 +83,19 @@ def compare_answers(tolerance: float) -> dict[str, Worst]:
     return {name: Worst(name, tolerance) for name in names}
 
 
-def see_answers(checks: dict[str, Worst], a: Answers, b: Answers, scales: FloatArray, start: int) -> None:
-    """Take the answers of two engines at a block of configurations into their checks."""
+def see_answers(
+    checks: dict[str, Worst], a: Answers, b: Answers, scales: FloatArray, fastest: FloatArray, start: int
+) -> None:
+    """Take the answers of two engines at a block of configurations into their checks.
+
+    Columns of Jacobians are divided by how fast their velocity moves joints (``fastest``: `configurations.speeds`),
+    those of derivatives, which are sums of products of two, by that and by the largest of all.
+    """
+    twice = fastest * fastest.max(initial=1.0)
     checks["forward kinematics"].see(pose_error(a.poses, b.poses, scales), start)
     for kind in KINDS:
-        checks[f"{kind} Jacobian"].see(jacobian_error(a.jacobians[kind], b.jacobians[kind], scales), start)
-        rates = jacobian_error(a.derivatives[kind], b.derivatives[kind], scales)
+        checks[f"{kind} Jacobian"].see(jacobian_error(a.jacobians[kind], b.jacobians[kind], scales) / fastest, start)
+        rates = jacobian_error(a.derivatives[kind], b.derivatives[kind], scales) / twice
         checks[f"{kind} Jacobian derivative"].see(rates, start)
 
 
@@ -97,12 +104,14 @@ def compare_identities(engine: str, tolerance: float) -> tuple[Worst, Worst]:
     return Worst(f"J_s = Ad(T) J_b in {engine}", tolerance), Worst(f"J_h = diag(R, R) J_b in {engine}", tolerance)
 
 
-def see_identities(checks: tuple[Worst, Worst], a: Answers, scales: FloatArray, start: int) -> None:
-    """Take an engine's three Jacobians at a block of configurations into their checks."""
+def see_identities(
+    checks: tuple[Worst, Worst], a: Answers, scales: FloatArray, fastest: FloatArray, start: int
+) -> None:
+    """Take an engine's three Jacobians at a block of configurations into their checks; see `see_answers`."""
     body = a.jacobians["body"]
     turned = np.empty_like(body)
     R = a.poses[..., :3, :3]
     turned[..., :3, :], turned[..., 3:, :] = R @ body[..., :3, :], R @ body[..., 3:, :]
     adjoint = se3.adjoint(a.poses)
-    checks[0].see(jacobian_error(a.jacobians["spatial"], adjoint @ body, scales), start)
-    checks[1].see(jacobian_error(a.jacobians["hybrid"], turned, scales), start)
+    checks[0].see(jacobian_error(a.jacobians["spatial"], adjoint @ body, scales) / fastest, start)
+    checks[1].see(jacobian_error(a.jacobians["hybrid"], turned, scales) / fastest, start)

@@ -10,6 +10,7 @@ from pinscrew.engines.compiled.batch import Batch
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
 from pinscrew.verification.comparison import Worst, jacobian_error, pose_error
+from pinscrew.verification.configurations import speeds
 
 __all__ = ["MANY", "CompiledChecks", "check_names"]
 
@@ -31,6 +32,7 @@ class CompiledChecks:
         """Compare the first of some frames, ``among`` those of the other engine's answers."""
         self.worst = tuple(Worst(name, tolerance) for name in check_names(MANY))
         self._engine = Batch(robot)
+        self._fastest = speeds(robot)
         self.frames = frames[:FRAMES]
         self._places = [among.index(frame) for frame in self.frames]
 
@@ -38,4 +40,4 @@ class CompiledChecks:
         """Take in a block of configurations ``q`` (N, nq), from index ``start`` on."""
         T, J = self._engine.fk_jacobian(q, self.frames, "body")
         self.worst[0].see(pose_error(T, answers.poses[:, self._places], scales), start)
-        self.worst[1].see(jacobian_error(J, answers.jacobians["body"][:, self._places], scales), start)
+        self.worst[1].see(jacobian_error(J, answers.jacobians["body"][:, self._places], scales) / self._fastest, start)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Configurations", "angles", "configurations", "effective_limits", "sizes"]
+__all__ = ["Configurations", "angles", "configurations", "effective_limits", "sizes", "speeds"]
 
 FAR_ANGLE: Final = 20 * np.pi
 """Ten turns (rad): far outside any limits, yet rounding of the angle itself stays below 1e-14."""
@@ -72,7 +72,12 @@ def configurations(robot: Robot, samples: int, seed: int) -> Configurations:
     limits = effective_limits(robot)
     lower, upper = limits.T
     size = max(1.0, robot.reach)
+    # As far that no mimic turns its joint farther than this: what is left of an angle is off by its size times 2⁻⁵³.
     far = np.where(angles(robot), FAR_ANGLE, FAR_DISTANCE * size)
+    for motion in robot.mechanism.motions:
+        if motion.joint.mimic is not None:
+            far[motion.q] = min(far[motion.q], FAR_ANGLE / max(1.0, abs(motion.multiplier)))
+    far = np.maximum(far, abs(limits).max(axis=1))
     outside = max(1, samples // 4)
     corners = rng.integers(0, 2, (CORNERS, robot.nq)).astype(bool)
     groups = {
@@ -100,6 +105,19 @@ def configurations(robot: Robot, samples: int, seed: int) -> Configurations:
 def angles(robot: Robot) -> npt.NDArray[np.bool_]:
     """Which coordinates are angles (or quaternions', whose range does not matter), shape (nq,)."""
     return ~robot.mechanism.coordinates.slides
+
+
+def speeds(robot: Robot) -> FloatArray:
+    """How many times faster than its own velocity each of them moves a joint, at the most and at least 1: shape (nv,).
+
+    The columns of a Jacobian, and with them their rounding, grow with the multipliers of mimics: ``J_i = Σ m_k ξ_k``
+    over the joints k that coordinate i drives. So errors in them are divided by the largest ``|m_k|``.
+    """
+    fastest = np.ones(robot.nv)
+    for motion in robot.mechanism.motions:
+        if motion.joint.mimic is not None:
+            fastest[motion.v] = max(fastest[motion.v], abs(motion.multiplier))
+    return fastest
 
 
 def sizes(robot: Robot, q: FloatArray) -> FloatArray:

@@ -22,7 +22,7 @@ from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3, so3
 from pinscrew.robot.robot import Robot
 from pinscrew.verification import structure
-from pinscrew.verification.configurations import sizes
+from pinscrew.verification.configurations import sizes, speeds
 from pinscrew.verification.outcome import Check
 from pinscrew.verification.structure import EngineDifference
 
@@ -147,6 +147,7 @@ def _at(engines: tuple[Engine, Engine], q: FloatArray, tolerance: float, skipped
     robot = a.robot
     names = [name for name in robot.frame_names if name in b.robot.frame_names]
     frames = [_AnsweredFrame.all(engine.answers(q[None], np.zeros((1, robot.nv)), names), names) for engine in engines]
+    tolerance *= float(speeds(robot).max(initial=1.0))
     rounding = _Rounding(tolerance * float(sizes(robot, q[None])[0]), tolerance)
     flaws = [{name: frame.flaw() for name, frame in own.items()} for own in frames]
     alike = {name: frames[0][name].like(frames[1][name], rounding) for name in names}

@@ -15,7 +15,7 @@ from pinscrew.ground.errors import InputError
 from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.verification import comparison, compiled, diagnosis, differences, structure
-from pinscrew.verification.configurations import Configurations, configurations
+from pinscrew.verification.configurations import Configurations, configurations, speeds
 from pinscrew.verification.outcome import Check
 from pinscrew.verification.report import Report
 
@@ -44,7 +44,8 @@ def verify(
     They are compared on every frame at zero, at the limits' corners and middle, at random within the limits and
     far outside; each engine's Jacobians are also held against each other and against finite differences of its
     own FK. With 10 000 samples or more `Batch` is compared too, where it can be compiled. Metres are divided by
-    max(1, size of the robot); NaN is a failure.
+    max(1, size of the robot), columns of Jacobians by the largest multiplier of what mimics their joint; NaN is a
+    failure.
 
     Args:
         robot: a robot, or a name or path that `load` takes.
@@ -128,6 +129,7 @@ def _numbers(
     many: bool,
 ) -> list[Check]:
     """All checks of numbers, in the order in which a report shows them; of `Batch` too if they are many."""
+    fastest = speeds(robot)
     home = comparison.Worst(_HOME, tolerance)
     screws = comparison.Worst(_SCREWS, tolerance)
     answers = comparison.compare_answers(tolerance)
@@ -140,10 +142,10 @@ def _numbers(
         if start == 0:  # configuration 0 is zero
             home.see(comparison.pose_error(a.poses[:1], b.poses[:1], scales[:1]))
             at_zero = a.jacobians["spatial"][:1], b.jacobians["spatial"][:1]
-            screws.see(comparison.jacobian_error(*at_zero, scales[:1]))
-        comparison.see_answers(answers, a, b, scales, start)
+            screws.see(comparison.jacobian_error(*at_zero, scales[:1]) / fastest)
+        comparison.see_answers(answers, a, b, scales, fastest, start)
         for checks, own in zip(identities, (a, b), strict=True):
-            comparison.see_identities(checks, own, scales, start)
+            comparison.see_identities(checks, own, scales, fastest, start)
         if extra is not None:
             extra.see(where.q[block], a, scales, start)
     worst = [home, screws, *answers.values(), *identities[0], *identities[1]]
