@@ -119,7 +119,7 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     for example in sorted(examples):
         alone = ["--jobs", "1"] if "--map" in example else []  # processes take seconds to start
         done = ok(*example.split()[1:], *alone)
-        written = [tmp_path / word for word in example.split() if word.endswith((".html", ".tex", ".ipynb"))]
+        written = [tmp_path / word for word in example.split() if word.endswith((".html", ".tex", ".ipynb", ".urdf"))]
         assert done.out or (written and all(path.stat().st_size for path in written)), example
 
 

@@ -28,6 +28,7 @@ _COMMANDS: Final = {
     "completion": "pinscrew.cli.completion",
     "derive": "pinscrew.cli.derive",
     "diff": "pinscrew.cli.diff",
+    "expand": "pinscrew.cli.expand",
     "fk": "pinscrew.cli.fk",
     "jacobian": "pinscrew.cli.jacobian",
     "list": "pinscrew.cli.list_robots",

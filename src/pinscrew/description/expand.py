@@ -12,13 +12,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
+from xml.parsers import expat
 
 from pinscrew.description.markup import Place
 from pinscrew.description.packages import Packages
 from pinscrew.ground.errors import PinscrewWarning, XacroError
 from pinscrew.ground.words import brief, one_line
 
-__all__ = ["MEMORY", "SECONDS", "Expansion", "expand", "expansion", "is_xacro", "text_is_xacro"]
+__all__ = ["MEMORY", "SECONDS", "Expansion", "expand", "expansion", "is_xacro", "text_is_xacro", "with_sources"]
 
 SECONDS: Final = 8
 """Processor time that an expansion may take."""
@@ -45,6 +46,31 @@ class Expansion:
 
     text: str
     places: tuple[Place, ...]
+
+
+def with_sources(expansion: Expansion) -> str:
+    """The text of an expansion, with a comment before each link and joint that says where it comes from.
+
+    Elements that stand on a line with others get none, so that no text changes its meaning.
+    """
+    if not expansion.places:
+        return expansion.text
+    lines = expansion.text.split("\n")
+    parser = expat.ParserCreate("utf-8")
+    places = iter(expansion.places)
+    comments: dict[int, str] = {}
+
+    def start(tag: str, _attributes: dict[str, str]) -> None:
+        file, line = next(places)
+        at, column = parser.CurrentLineNumber - 1, parser.CurrentColumnNumber
+        if tag in ("link", "joint") and not lines[at][:column].strip():
+            source = f"{file}:{line}".replace("--", "- -")  # which no comment may have
+            comments[at] = f"{lines[at][:column]}<!-- {source} -->"
+
+    parser.StartElementHandler = start
+    parser.Parse(expansion.text.encode(), True)
+    told = ([comments[at], line] if at in comments else [line] for at, line in enumerate(lines))
+    return "\n".join(text for pair in told for text in pair)
 
 
 def is_xacro(path: Path) -> bool:

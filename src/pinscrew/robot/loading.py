@@ -12,7 +12,7 @@ from pinscrew.description.packages import Packages
 from pinscrew.ground.errors import DescriptionError, InputError, PinscrewWarning
 from pinscrew.robot.robot import Robot
 
-__all__ = ["RobotLike", "load", "robot_of"]
+__all__ = ["RobotLike", "expanded", "load", "robot_of"]
 
 RobotLike: TypeAlias = Robot | str | Path
 """A robot, or what `load` makes one of: a name or the path of a file."""
@@ -65,18 +65,32 @@ def load(
     """
     entry = catalogue.find(source)
     given = {name: str(value) for name, value in {**(arguments or {}), **more}.items()}
-    text = markup.read(entry.file)
-    places: tuple[markup.Place, ...] = ()
-    by_content = not expand.is_xacro(entry.file) and expand.text_is_xacro(text)
+    urdf_text = expanded(entry.file, given, packages=packages, allow_outside=allow_outside)
+    description = urdf.parse(urdf_text.text, entry.file, given, urdf_text.places, strict=strict)
+    return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)
+
+
+def expanded(
+    file: Path,
+    arguments: Mapping[str, str],
+    *,
+    packages: Mapping[str, str | Path] | None = None,
+    allow_outside: bool = False,
+) -> expand.Expansion:
+    """The URDF in a file, or what its xacro stands for; see `load`. Of a plain URDF no places are known but its own.
+
+    Raises:
+        DescriptionError: if the file can't be read or expanded, or has no arguments and some are given.
+    """
+    text = markup.read(file)
+    by_content = not expand.is_xacro(file) and expand.text_is_xacro(text)
     if by_content:
         remark = "has xacro in it, and was expanded first"
-        warnings.warn(PinscrewWarning("xacro-content", remark, file=entry.file), stacklevel=2)
-    if by_content or expand.is_xacro(entry.file):
+        warnings.warn(PinscrewWarning("xacro-content", remark, file=file), stacklevel=3)
+    if by_content or expand.is_xacro(file):
         roots = {name: Path(root) for name, root in (packages or {}).items()}
-        expansion = expand.expansion(entry.file, given, Packages(entry.file, roots, allow_outside))
-        text, places = expansion.text, expansion.places
-    elif given:
-        what = f"a plain URDF has no arguments, but {', '.join(given)} came"
-        raise DescriptionError("xacro-argument", what, file=entry.file, remedy="leave them out")
-    description = urdf.parse(text, entry.file, given, places, strict=strict)
-    return Robot.from_description(description, name=entry.name, tip=tip or entry.tip, floating_base=floating_base)
+        return expand.expansion(file, arguments, Packages(file, roots, allow_outside))
+    if arguments:
+        what = f"a plain URDF has no arguments, but {', '.join(arguments)} came"
+        raise DescriptionError("xacro-argument", what, file=file, remedy="leave them out")
+    return expand.Expansion(text, ())
