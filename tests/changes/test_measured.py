@@ -146,6 +146,7 @@ def test_a_link_whose_frame_alone_moved_is_seen_from_itself() -> None:
     (chosen,) = differences(lambda e: e.reexpress("mount", X), text)
     assert isinstance(chosen, Moved)
     assert (chosen.kind, chosen.kept) == ("frame-re-expressed", True)
+    assert chosen.size == pytest.approx((np.linalg.norm(SHIFT), np.linalg.norm(TURN)))
     assert chosen.move.shift == pytest.approx(SHIFT, abs=1e-12)
     assert chosen.move.turn == pytest.approx(TURN, abs=1e-12)
 
@@ -234,6 +235,76 @@ def test_the_words_of_a_move_are_its_numbers() -> None:
     assert numbers(words[3]) == pytest.approx(SHIFT * 1e3, rel=1e-5)
 
 
+def stays(e: Edited) -> None:
+    """The planar joint's frame is moved along its own x, and what hangs from it stays."""
+    e.move("table", pose((0.01, 0.0, 0.0)))
+    e.compensate("table", pose((0.01, 0.0, 0.0)))
+
+
+def limited(e: Edited) -> None:
+    """A continuous joint gets limits, with rates beyond which it is not asked for."""
+    e.joint("j4").set("type", "revolute")
+    e.set_limits("j4", -1.0, 1.0)
+    e.joint("j4").find("limit").attrib.update(effort="1e308", velocity="1e308")  # type: ignore[union-attr]
+
+
+def hung(e: Edited) -> None:
+    """j4 hangs from l2 instead of l3, which stands there at zero."""
+    e.set_origin("j4", e.origin("slide") @ e.origin("j4"))
+    e.joint("j4").find("parent").set("link", "l2")  # type: ignore[union-attr]
+
+
+def freed(e: Edited) -> None:
+    e.joint("k").remove(e.mimic("k"))
+
+
+def turned_round(e: Edited) -> None:
+    e.set_limits("j1", -1.0, 2.0)
+    e.reverse("j1")
+
+
+TURNED_ROUND = "narrowed from [-114.592°, 114.592°] to [-114.592°, 57.2958°]"
+GONE_ROUND = "changed from [-57.2958°, 114.592°] to [-114.592°, 57.2958°], as its direction is reversed"
+SENTENCES = {
+    "slid": (
+        ARM,
+        lambda e: e.reexpress("j2", pose(0.02 * e.axis("j2"))),
+        "its origin is slid by 20 mm along its axis;",
+    ),
+    "slide slid": (
+        ARM,
+        lambda e: e.reexpress("slide", pose(0.02 * e.across("slide"))),
+        "its origin is slid by 20 mm, which its motion does not depend on;",
+    ),
+    "limited": (ARM, limited, "joint 'j4': it is revolute instead of continuous, with limits"),
+    "hung": (ARM, hung, "joint 'j4': it hangs from link 'l2' instead of 'l3'; at zero, it stands where it stood"),
+    "freed": (urdfs.mimic(), freed, "joint 'k': it has a coordinate of its own instead of following 'j'"),
+    "frame goes": (urdfs.planar(), lambda e: e.move("table", pose((0.01, 0.0, 0.0))), "; what follows goes along"),
+    "frame stays": (urdfs.planar(), stays, "; what follows stays"),
+    "reversed": (ARM, lambda e: e.reverse("j1"), "is reversed: its coordinate has the other sign; what follows stays"),
+    "reversed and narrowed": (ARM, turned_round, TURNED_ROUND),
+}
+
+
+@pytest.mark.parametrize(("text", "edit", "words"), SENTENCES.values(), ids=SENTENCES)
+def test_the_other_sentences(text: str, edit: Callable[[Edited], None], words: str) -> None:
+    e = Edited(text)
+    edit(e)
+    found = ps.diff(urdfs.load(text), urdfs.load(e.text))
+    said = [change.words for change in (*found.changes, *found.notes)]
+    assert sum(words in one for one in said) == 1, said
+
+
+def test_limits_that_go_round_with_their_axis_say_so() -> None:
+    a, b = Edited(ARM), Edited(ARM)
+    a.set_limits("j1", -1.0, 2.0)
+    b.set_limits("j1", -1.0, 2.0)
+    b.reverse("j1")
+    found = ps.diff(urdfs.load(a.text), urdfs.load(b.text))
+    assert [change.kind for change in found.changes] == ["axis-reversed", "limits"]
+    assert found.changes[1].words.endswith(GONE_ROUND)
+
+
 def moved_text(joint: str) -> str:
     e = Edited(ARM)
     move_origin(joint)(e)
@@ -262,6 +333,43 @@ def test_joints_added_and_removed_are_told_with_the_link_that_they_lead_to() -> 
     assert (removed.kind, removed.joint, removed.link, removed.line) == ("joint-removed", "new", "hand", None)
     assert "(revolute) is added between links 'l2' and 'hand'" in added.words
     assert "(revolute) is removed between links 'l2' and 'hand'" in removed.words
+
+
+@pytest.mark.parametrize(("old", "joint"), [("base", ""), ("l1", "j1"), ("l4", "j4"), ("tool", "mount")])
+def test_a_link_that_is_renamed_is_told_once_and_with_its_joint(old: str, joint: str) -> None:
+    e = Edited(ARM)
+    e.rename_link(old, "other")
+    found = ps.diff(urdfs.load(ARM), urdfs.load(e.text))
+    assert found.changes == ()
+    (note,) = found.notes
+    assert (note.kind, note.joint, note.link, note.tip) == ("link-renamed", joint, "other", old == "tool")
+    assert note.words.endswith(f"link 'other' was called '{old}'")
+
+
+def test_a_tip_belongs_to_the_last_joint_that_leads_to_it_in_either_robot() -> None:
+    """What is added below a tip, or removed from there, does not lead to it."""
+    with_eye = Edited(ARM)
+    with_eye.attach("eye_joint", "fixed", "tool", "eye", pose((0.1, 0.0, 0.0)))
+    plain, eyed = (urdfs.load(text).description for text in (ARM, with_eye.text))
+    for a, b in ((plain, eyed), (eyed, plain), (plain, plain)):
+        matched_ = matching.match(a, b)
+        ((x, y, index),) = measuring._tips(matched_, geometry.Poses(a), geometry.Poses(b))
+        assert (x, y, matched_.pairs[index].named.name) == ("tool", "tool", "mount")
+
+
+def test_a_frame_is_slid_to_the_tolerance_of_lengths() -> None:
+    """The origin of j2 goes 1 cm along its axis and 1 µm off it, which 1 mm allows and a nanometre does not."""
+
+    def edit(e: Edited) -> None:
+        e.reexpress("j2", pose(1e-2 * e.axis("j2") + 1e-6 * e.across("j2")))
+
+    e = Edited(ARM)
+    edit(e)
+    kinds = [
+        [difference.kind for difference in measuring.measure(urdfs.load(ARM), urdfs.load(e.text), near).differences]
+        for near in (Tolerance(1e-3, 1e-9), Tolerance(1e-9, 1e-3))
+    ]
+    assert kinds == [["origin-slid"], ["axis-moved"]]
 
 
 def test_a_name_that_goes_to_another_joint_is_swapped() -> None:
