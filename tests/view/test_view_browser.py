@@ -258,6 +258,31 @@ def test_names_are_text(open_page: Open, tmp_path: Path) -> None:
             assert page.evaluate(rigid) == len(links)
 
 
+SHORTENED = {
+    ("_shoulder", "elbow"): ["_shoulder", "elbow"],
+    ("_a", "_b"): ["a", "b"],
+    ("__", "_"): ["__", "_"],
+    ("left_arm_1", "left_arm_2"): ["1", "2"],
+    ("left_arm_1", "left_leg_1"): ["arm_1", "leg_1"],
+    ("_x_1", "_y_1"): ["x_1", "y_1"],
+    ("joint_", "joint_2"): ["joint_", "joint_2"],
+    ("only_one",): ["only_one"],
+}
+
+
+def test_columns_are_named_without_what_all_names_begin_with(open_page: Open, tmp_path: Path) -> None:
+    """A name that begins with an underscore froze the page for ever."""
+    for i, (names, expected) in enumerate(SHORTENED.items()):
+        links = [f"l{k}" for k in range(len(names) + 1)]
+        joints = [urdfs.joint(name, "continuous", *links[k : k + 2]) for k, name in enumerate(names)]
+        robot = urdfs.load(urdfs.robot(*joints, links=" ".join(links)))
+        (tmp_path / str(i)).mkdir()
+        page = open_page(saved(Model.of(robot, Looks(()), {}), tmp_path / str(i)), offline=True)
+        heads = page.eval_on_selector_all("#jacobian th", "all => all.map(one => one.textContent)")
+        assert [head for head in heads if head in expected] == expected
+        page.context.close()
+
+
 def test_an_animation_plays_to_its_end(open_page: Open) -> None:
     model = model_of("two_joint")
     with View(model, prepare.begin(model), 17600) as view:

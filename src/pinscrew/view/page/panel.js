@@ -28,7 +28,8 @@
   function withoutPrefix(names) {
     let shared = names.length > 1 ? names[0].lastIndexOf("_") + 1 : 0;
     while (shared > 0 && !names.every((name) => name.length > shared && name.startsWith(names[0].slice(0, shared)))) {
-      shared = names[0].lastIndexOf("_", shared - 2) + 1;
+      // lastIndexOf takes a negative place for 0, where "_shoulder" has an underscore again and again.
+      shared = shared < 2 ? 0 : names[0].lastIndexOf("_", shared - 2) + 1;
     }
     return names.map((name) => name.slice(shared));
   }
