@@ -17,6 +17,7 @@ import pinscrew as ps
 import urdfs
 from pinscrew.description import urdf
 from pinscrew.description.visuals import Looks
+from pinscrew.engines.measures import generic_ranks
 from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.robot.robot import Robot
 from pinscrew.view import prepare, scene
@@ -256,6 +257,31 @@ def test_names_are_text(open_page: Open, tmp_path: Path) -> None:
             assert set(poses(page)) == set(links)
             rigid = "Object.keys(pinscrew.app.tree.node('rigid', 'frames').children).length"
             assert page.evaluate(rigid) == len(links)
+
+
+@pytest.mark.parametrize("name", ["scara", "planar_rrr", "stanford", "mixed"])
+def test_one_manipulability(name: str, open_page: Open, tmp_path: Path) -> None:
+    """The same as a sweep's, of position and rotation apart, whatever Jacobian is shown; 0 where singular."""
+    model = model_of(name)
+    robot, tip = model.robot, model.tip
+    page = open_page(saved(model, tmp_path), offline=True)
+    ranks = generic_ranks(ps.PoE(robot), tip)
+    singular = robot.neutral  # a SCARA, stretched out
+    for q in (singular, *samples(robot, 3, model.size, seed=5)):
+        page.evaluate("q => pinscrew.app.move(q)", q.tolist())
+        J = ps.Pinocchio(robot).jacobian(q, tip, "hybrid")
+        texts = set()
+        for kind in KINDS:
+            page.select_option("#kind", kind)
+            shown = page.evaluate("pinscrew.app.shown.manipulability")
+            for part, rows, rank in (("position", J[:3], ranks[0]), ("rotation", J[3:], ranks[1])):
+                expected = np.linalg.svd(rows, compute_uv=False)[:rank].prod() if rank else None
+                assert shown[part] == (None if rank == 0 else pytest.approx(expected, abs=1e-9))
+            texts.add(page.text_content("#manipulability"))
+        assert len(texts) == 1
+        if name == "scara" and q is singular:
+            assert texts == {"position 0 m³, rotation 1.4142"}
+            assert "singular" in page.text_content("#warning")
 
 
 SHORTENED = {

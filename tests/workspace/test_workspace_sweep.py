@@ -14,11 +14,12 @@ from scipy.stats import qmc
 import closed_forms
 import pinscrew as ps
 import urdfs
+from pinscrew.engines.measures import manipulability
 from pinscrew.ground.errors import InputError, MissingExtraError, PinscrewError, UnknownNameError
 from pinscrew.lockfile import fingerprint
 from pinscrew.workspace.axes import axes, sobol
 from pinscrew.workspace.comparison import from_reference
-from pinscrew.workspace.measures import Measures, manipulability
+from pinscrew.workspace.measures import Measures
 
 ROUNDING = 1e-12
 load = cache(ps.load)

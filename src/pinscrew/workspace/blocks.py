@@ -14,9 +14,9 @@ import numpy as np
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.compiled.batch import Batch
+from pinscrew.engines.measures import manipulability
 from pinscrew.ground.typing import FloatArray
 from pinscrew.workspace.axes import Axis, spread
-from pinscrew.workspace.measures import manipulability
 from pinscrew.workspace.voxels import Voxels, direction_bits, voxel_keys
 
 __all__ = ["BLOCK", "MapTask", "block_count", "run_pickled"]

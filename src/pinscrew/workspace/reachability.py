@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.compiled.batch import for_many
+from pinscrew.engines.measures import generic_ranks
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import EngineError, InputError
 from pinscrew.ground.processes import job_count, process_pool
@@ -24,7 +25,6 @@ from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import Ranges, axes
 from pinscrew.workspace.blocks import BLOCK, MapTask, block_count, run_pickled
-from pinscrew.workspace.measures import generic_ranks
 from pinscrew.workspace.reachability_map import Done, ReachabilityMap, read_map, unfinished, write_map
 from pinscrew.workspace.voxels import Gathering, Voxels
 
@@ -95,7 +95,7 @@ def reachability(
         raise InputError("voxel", f"voxel={voxel}", remedy="give an edge in m, such as 0.05")
     found = axes(robot, frame, ranges)
     engine = engine or for_many(robot, threads=1)
-    rank, _ = generic_ranks(engine, frame, found)
+    rank, _ = generic_ranks(engine, frame)
     metadata: archive.Metadata = archive.provenance(robot, engine, frame, found)
     metadata |= {"voxel": voxel, "samples": samples, "seed": seed, "block": BLOCK, "rank": rank}
     file = None if path is None else Path(path)

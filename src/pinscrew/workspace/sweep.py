@@ -12,6 +12,7 @@ import numpy as np
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.compiled.batch import for_many
+from pinscrew.engines.measures import generic_ranks
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.memory import free_bytes
@@ -20,7 +21,7 @@ from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.workspace import archive
 from pinscrew.workspace.axes import GridSteps, Ranges, axes, grid_counts, grid_points, sobol
-from pinscrew.workspace.measures import Measures, generic_ranks
+from pinscrew.workspace.measures import Measures
 
 __all__ = ["SAMPLES", "STEP", "Sweep", "sweep"]
 
@@ -141,7 +142,7 @@ def sweep(
     points = None if grid is None else grid_counts(found, grid)
     count = count if points is None else math.prod(points)
     engine = engine or for_many(robot)
-    ranks = generic_ranks(engine, frame, found)
+    ranks = generic_ranks(engine, frame)
     _fits(robot, count, sum(ranks) + (0 if kind is None else 6 * robot.nv))
     q = np.tile(robot.neutral, (count, 1))
     q[:, [axis.index for axis in found]] = sobol(found, count, seed) if points is None else grid_points(found, points)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from pinscrew.engines.answers import Bound
 from pinscrew.engines.compiled import can_compile, say_slow
 from pinscrew.engines.compiled.chain import LARGEST_ANGLE, Part, Question, chain_to
+from pinscrew.engines.compiled.flat import in_fewer_directions
 from pinscrew.engines.compiled.outputs import Results, outputs, thread_count
 from pinscrew.engines.poe import PoE
 from pinscrew.ground.errors import InputError
@@ -135,20 +136,19 @@ class Batch(PoE):
         self,
         q: ArrayLike,
         frame: Frames = None,
-        part: Part = "all",
+        part: Part = "translation",
         *,
         out: Results | None = None,
         threads: int | None = None,
     ) -> FloatArray:
-        """Yoshikawa's measure: the product of the singular values of the Jacobian, without its ever being stored.
+        """Yoshikawa's measure of the position or of the rotation; see `pinscrew.engines.measures`.
 
-        It is √det(J Jᵀ) (Yoshikawa 1985, doi:10.1177/027836498500400201) or, where fewer joints than rows move the
-        frame, √det(Jᵀ J); the same for the body and the hybrid Jacobian.
+        The Jacobian is never stored, but where the arm can't move in as many directions as it has rows and joints.
 
         Args:
             q: coordinates, shape (..., nq), rad and m.
             frame: a link's name, several, or None for the tip.
-            part: ``"all"`` six rows, which mixes metres and radians; ``"translation"`` or ``"rotation"`` alone.
+            part: ``"translation"`` or ``"rotation"``; ``"all"`` six rows, √det(JᵀJ) or √det(JJᵀ), mixes m and rad.
             out: where to write.
             threads: see `fk`.
 
@@ -158,7 +158,7 @@ class Batch(PoE):
         if part not in ("all", "translation", "rotation"):
             raise InputError("part", f"part={part!r}", remedy="use 'all', 'translation' or 'rotation'")
         (measures,) = self._answer(q, frame, Question(part=part), [out], threads)
-        return measures
+        return measures if part == "all" else in_fewer_directions(self, q, frame, part, measures)
 
     def reduce(
         self,

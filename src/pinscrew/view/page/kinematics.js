@@ -129,19 +129,32 @@
       return out;
     }
 
-    // Which rows count for a frame, and the rank they have almost everywhere.
+    // Which rows count for a frame, and the rank they have almost everywhere; and that of each part alone.
     generic(frame) {
-      const full = this._rank(frame, 6);
-      if (full === 6) return { rows: 6, rank: 6 };
-      const rank = this._rank(frame, 3);
-      return rank > 0 ? { rows: 3, rank } : { rows: 6, rank: full };
+      const full = this._rank(frame, 0, 6), position = this._rank(frame, 0, 3), rotation = this._rank(frame, 3, 6);
+      const parts = { position, rotation };
+      if (full === 6) return { rows: 6, rank: 6, parts };
+      return position > 0 ? { rows: 3, rank: position, parts } : { rows: 6, rank: full, parts };
     }
 
-    _rank(frame, rows) {
+    // Yoshikawa's measure of the position (m) and of the rotation: the product of as many singular values as are not
+    // always zero, of the three rows of each; never of both at once, whose units differ (workspace/measures.py).
+    manipulability(frame, { parts }, moved) {
+      const J = this.jacobian(frame, "body", moved);
+      const product = (rank, from) => L.singular(J.map((column) => column.slice(from, from + 3))).values
+        .slice(0, rank).reduce((all, value) => all * value, 1);
+      return {
+        position: parts.position ? product(parts.position, 0) : null,
+        rotation: parts.rotation ? product(parts.rotation, 3) : null,
+      };
+    }
+
+    _rank(frame, from, to) {
       let state = 12345, rank = 0;
       const generator = () => (state = (state * 48271) % 2147483647) / 2147483647;
       for (let k = 0; k < 16; k++) {
-        const { values } = L.singular(this.task(frame, this.displacements(this.random(generator)), rows));
+        const task = this.task(frame, this.displacements(this.random(generator)), to);
+        const { values } = L.singular(task.map((column) => column.slice(from)));
         rank = Math.max(rank, values.filter((value) => value > 1e-7 * Math.max(values[0], 1e-9)).length);
       }
       return rank;

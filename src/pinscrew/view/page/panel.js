@@ -202,7 +202,7 @@
       for (const [group, box] of this.checks) box.checked = state.draw.has(group);
     }
 
-    numbers({ T, J, margin, generic, line }) {
+    numbers({ T, J, margin, generic, manipulability, line }) {
       const { state, document: given, robot } = this.app;
       byId("pose-title").textContent = `Pose of ${state.tip} in ${given.base}`;
       byId("jacobian-title").textContent = `${state.kind} Jacobian of ${state.tip}`;
@@ -212,7 +212,11 @@
         [...this.columns, "V"]);
       const { values } = L.singular(J);
       byId("singular").textContent = values.map((x) => short(x)).join("  ") || "none";
-      byId("manipulability").textContent = values.length ? short(values.reduce((product, x) => product * x, 1)) : "0";
+      const power = ["", "", "²", "³"];
+      byId("manipulability").textContent = [
+        ["position", ` m${power[generic.parts.position]}`], ["rotation", ""],
+      ].filter(([part]) => manipulability[part] !== null)
+        .map(([part, unit]) => `${part} ${short(manipulability[part])}${unit}`).join(", ") || "none";
       const length = L.norm(line.direction);
       byId("screw").textContent = length === 0
         ? "no motion"
