@@ -6,6 +6,7 @@ import itertools
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,9 +16,18 @@ from scipy.linalg import expm
 import pinscrew as ps
 import urdfs
 from pinscrew.changes import distance, geometry, matching, measuring, walk
-from pinscrew.changes.differences import AxisMoved, CarriedMoved, Followed, LimitsChanged, Moved, ZeroShifted
-from pinscrew.changes.outcome import Tolerance
-from pinscrew.changes.wording import told_apart
+from pinscrew.changes.differences import (
+    AxisMoved,
+    CarriedMoved,
+    Followed,
+    LimitsChanged,
+    Moved,
+    Rehung,
+    TipsApart,
+    ZeroShifted,
+)
+from pinscrew.changes.outcome import Displacement, TipPlace, Tolerance
+from pinscrew.changes.wording import told_apart, worded
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import Robot
@@ -293,6 +303,29 @@ def test_the_other_sentences(text: str, edit: Callable[[Edited], None], words: s
     found = ps.diff(urdfs.load(text), urdfs.load(e.text))
     said = [change.words for change in (*found.changes, *found.notes)]
     assert sum(words in one for one in said) == 1, said
+
+
+def test_a_joint_that_hangs_elsewhere_is_as_far_from_where_it_stood_as_it_moved() -> None:
+    def fell(e: Edited) -> None:
+        hung(e)
+        e.set_origin("j4", displaced(e.origin("j4")))
+
+    (stood,), (moved,) = differences(hung), differences(fell)
+    assert isinstance(stood, Rehung)
+    assert (stood.kind, stood.size) == ("parent", (0.0, 0.0))
+    assert isinstance(moved, Rehung)
+    assert moved.size == pytest.approx((np.linalg.norm(SHIFT), np.linalg.norm(TURN)))
+
+
+def test_tips_apart_are_told_by_what_is_beyond_the_tolerance() -> None:
+    apart = TipsApart("tip-moved", None, distance_of(3e-3, 2e-3), turned=True)
+    assert worded(apart, NEAR).words.startswith("tip frame 'far' is displaced by up to 0.114592°, though")
+    assert worded(replace(apart, turned=False), NEAR).words.startswith("tip frame 'tool' is displaced by up to 3 mm,")
+    assert worded(apart, NEAR).link == "far"
+
+
+def distance_of(length: float, angle: float) -> Displacement:
+    return Displacement(length, TipPlace("tool", {}), angle, TipPlace("far", {}))
 
 
 def test_limits_that_go_round_with_their_axis_say_so() -> None:
