@@ -331,6 +331,13 @@ def test_far_outside_is_far(robot: ps.Robot) -> None:
     assert (abs(far).max(axis=0, initial=0.0) > 0.9 * bound).all()
 
 
+def test_the_middle_of_limits_is_one_of_the_configurations() -> None:
+    joint = urdfs.joint("j", "revolute", "base", "tool", limits=(-0.5, 1.5))
+    where = configurations(urdfs.load(urdfs.robot(joint, links="base tool")), 3, 0)
+    ends = {label: where.q[i].tolist() for i, label in enumerate(where.labels)}
+    assert (ends["lower limits"], ends["middle"], ends["upper limits"]) == ([-0.5], [0.5], [1.5])
+
+
 def test_velocities_are_of_norm_one_and_of_either_sign() -> None:
     where = configurations(ROBOT, 2000, 0)
     assert np.linalg.norm(where.qd, axis=1) == pytest.approx(np.ones(len(where.q)))

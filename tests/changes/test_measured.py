@@ -328,6 +328,27 @@ def distance_of(length: float, angle: float) -> Displacement:
     return Displacement(length, TipPlace("tool", {}), angle, TipPlace("far", {}))
 
 
+def test_of_equally_good_explanations_the_literal_one_is_told() -> None:
+    """j1's axis is turned and its origin moved; j2 makes up for the move, and is moved itself.
+
+    Either j1 moved what follows, or it stayed: two edits both ways. The former is what was written in j1's origin.
+    """
+    X, Y = pose((0.0, 0.0, 0.02)), pose((0.0, 0.03, 0.0))
+
+    def edit(e: Edited) -> None:
+        axis = turn(e.across("j1"), 0.1) @ e.axis("j1")
+        e.move("j1", X)
+        e.set_axis("j1", axis)
+        e.set_origin("j2", np.linalg.inv(X) @ e.origin("j2") @ Y)
+
+    first, second = differences(edit)
+    assert isinstance(first, AxisMoved)
+    assert isinstance(second, Moved)
+    assert (first.kind, first.joint.name, second.joint.name) == ("axis-turned", "j1", "j2")
+    assert first.follows is not None
+    assert first.follows.shift == pytest.approx(Edited(ARM).origin("j1")[:3, :3] @ X[:3, 3], abs=1e-12)
+
+
 def test_limits_that_go_round_with_their_axis_say_so() -> None:
     a, b = Edited(ARM), Edited(ARM)
     a.set_limits("j1", -1.0, 2.0)
