@@ -20,6 +20,7 @@ EVERY: dict[str, list[str]] = {
     "completion": ["bash"],
     "derive": [FILE],
     "diff": [FILE, FILE],
+    "expand": [FILE],
     "fk": [FILE],
     "jacobian": [FILE, "--kind", "body"],
     "list": [],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import os
 import struct
 import warnings
 from pathlib import Path
@@ -136,6 +138,24 @@ def test_an_obj_has_the_colors_beside_it(tmp_path: Path) -> None:
     found = looks('<geometry><mesh filename="a.obj"/></geometry>', tmp_path)
     ((part,),) = mesh_files.load(found.visuals, Packages(tmp_path / "r.urdf")).values()
     assert part.color == (1.0, 0.0, 0.0, 1.0)
+
+
+def test_a_pipe_beside_an_obj_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.mtl")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    found = looks('<geometry><mesh filename="a.obj"/></geometry>', tmp_path)
+    ((part,),) = mesh_files.load(found.visuals, Packages(tmp_path / "r.urdf")).values()
+    assert len(part.faces) == 1
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+def test_vertices_are_finite(bad: float, tmp_path: Path) -> None:
+    triangle = struct.pack("<12fH", 0, 0, 1, 0, bad, 0, 1, 0, 0, 0, 1, 0, 0)
+    (tmp_path / "a.stl").write_bytes(bytes(80) + struct.pack("<I", 1) + triangle)
+    found = looks('<geometry><mesh filename="a.stl"/></geometry>', tmp_path)
+    with pytest.raises(DescriptionError, match="no finite numbers") as caught:
+        mesh_files.load(found.visuals, Packages(tmp_path / "r.urdf"))
+    assert (caught.value.code, Path(caught.value.file).name) == ("mesh-format", "a.stl")
 
 
 @pytest.mark.parametrize(("name", "data"), [("a.stl", b"solid nothing"), ("a.ply", b"ply"), ("a.dae", b"<COLLADA/>")])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import tracemalloc
 import warnings
 from functools import cache
 from pathlib import Path
@@ -338,3 +339,28 @@ def test_no_pickle(tmp_path: Path) -> None:
     np.savez(tmp_path / "a.npz", metadata=np.array([print], dtype=object))
     with pytest.raises(InputError, match=r"no pinscrew\.sweep/1 file"):
         ps.Sweep.load(tmp_path / "a.npz")
+
+
+def test_an_archive_that_swells_is_not_opened(tmp_path: Path) -> None:
+    """120 MB of zeros in 120 kB, under a name of ours: the memory of none of it is taken."""
+    whole = tmp_path / "a.npz"
+    ps.sweep(load("scara"), samples=4).save(whole)
+    with np.load(whole) as archive:
+        arrays = dict(archive)
+    np.savez_compressed(tmp_path / "b.npz", **{**arrays, "q": np.zeros((5_000_000, 3))})
+    tracemalloc.start()
+    with pytest.raises(InputError, match="compressed, of more than 100 MB"):
+        ps.Sweep.load(tmp_path / "b.npz")
+    assert tracemalloc.get_traced_memory()[1] < 10e6
+    tracemalloc.stop()
+    np.savez_compressed(tmp_path / "c.npz", **arrays)
+    assert len(ps.Sweep.load(tmp_path / "c.npz").q) == 4
+
+
+def test_an_archive_of_something_else_is_refused_before_it_is_read(tmp_path: Path) -> None:
+    np.savez(tmp_path / "b.npz", q=np.zeros(5_000_000))
+    tracemalloc.start()
+    with pytest.raises(InputError, match="its schema is None"):
+        ps.Sweep.load(tmp_path / "b.npz")
+    assert tracemalloc.get_traced_memory()[1] < 10e6
+    tracemalloc.stop()

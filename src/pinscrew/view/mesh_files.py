@@ -16,7 +16,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pinscrew.description.packages import Packages
+from pinscrew.description.packages import Packages, is_file
 from pinscrew.description.visuals import Color, Visual
 from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.typing import FloatArray
@@ -95,6 +95,8 @@ def _read(file: Path, packages: Packages) -> Mesh:
     except Exception as error:  # parsers of three formats fail in many ways, and any of them means the same
         what = f"can't be read as a mesh ({type(error).__name__}: {error})"
         raise DescriptionError("mesh-format", what, file=file) from error
+    if not all(np.isfinite(part.vertices).all() for part in parts):
+        raise DescriptionError("mesh-format", "has vertices that are no finite numbers", file=file)
     found = tuple(part for part in parts if len(part.faces))
     if not found:
         raise DescriptionError("mesh-format", "has no triangles", file=file)
@@ -148,7 +150,10 @@ def _materials_beside(file: Path, packages: Packages) -> Any:
         def get(self, name: str) -> bytes:
             if not str(name).strip().lower().endswith(".mtl"):
                 raise FileNotFoundError(name)
-            return packages.check(file.parent / str(name).strip()).read_bytes()
+            library = packages.check(file.parent / str(name).strip())
+            if not is_file(library):  # a pipe may never end
+                raise FileNotFoundError(name)
+            return library.read_bytes()
 
         def write(self, name: str, data: Any) -> None:
             raise NotImplementedError

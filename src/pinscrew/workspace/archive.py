@@ -33,6 +33,10 @@ METADATA: Final = "metadata"
 """The array that holds the provenance, as JSON."""
 
 # What zip, zlib and numpy say of damaged files, or of files that claim to be larger than memory.
+MOST_SQUEEZED: Final = 100 * 2**20
+"""Bytes that compressed members of an archive may have."""
+MOST_METADATA: Final = 10 * 2**20
+"""Bytes of the provenance."""
 _BROKEN: Final = (
     *(OSError, EOFError, ValueError, KeyError, SyntaxError, TypeError, MemoryError, RuntimeError),
     *(zipfile.BadZipFile, zlib.error, struct.error),
@@ -83,7 +87,7 @@ def load(path: Path, schema: str, shapes: Mapping[str, tuple[str, tuple[int | No
     Raises:
         InputError: if there is no such file, or it is broken or something else.
     """
-    arrays, cause = _read(path)
+    arrays, cause = _read(path, schema)
     metadata: Any = None
     if METADATA in arrays:
         try:
@@ -109,8 +113,8 @@ def _is(array: NDArray[Any], kind: str, lengths: tuple[int | None, ...]) -> bool
     return array.dtype.kind == kind and array.ndim == 1 + len(lengths) and all(b in (None, a) for a, b in pairs)
 
 
-def _read(path: Path) -> tuple[Arrays, str]:
-    """The arrays of an npz file, or why there are none."""
+def _read(path: Path, schema: str) -> tuple[Arrays, str]:
+    """The arrays of an npz file; of one that is something else the provenance alone. Or why there are none."""
     try:
         stream = path.open("rb")
     except (OSError, ValueError) as error:  # ValueError: a NUL character in the path
@@ -119,7 +123,20 @@ def _read(path: Path) -> tuple[Arrays, str]:
         raise InputError(code, what, where=str(path)) from None
     with stream:
         try:
+            if not zipfile.is_zipfile(stream):
+                return {}, "it is no archive of arrays"
+            stream.seek(0)
+            with zipfile.ZipFile(stream) as members:
+                squeezed = [m for m in members.infolist() if m.compress_type != zipfile.ZIP_STORED]
+                sizes = {m.filename: m.file_size for m in members.infolist()}
+            # `save` does not compress: what takes a thousand times its size in memory is not from here.
+            if sum(member.file_size for member in squeezed) > MOST_SQUEEZED:
+                return {}, f"compressed, of more than {MOST_SQUEEZED // 2**20} MB"
+            if sizes.get(f"{METADATA}.npy", 0) > MOST_METADATA:
+                return {}, f"its provenance is larger than {MOST_METADATA // 2**20} MB"
+            stream.seek(0)
             archive = np.load(stream, allow_pickle=False)
-            return (dict(archive), "") if isinstance(archive, np.lib.npyio.NpzFile) else ({}, "it is one array")
+            told = {METADATA: archive[METADATA]} if METADATA in archive else {}
+            return (dict(archive) if schema in str(told.get(METADATA, "")) else told), ""
         except _BROKEN as error:
             return {}, str(error).partition(". ")[0] or type(error).__name__  # numpy goes on about pickles
