@@ -81,17 +81,18 @@ def _read(file: Path, packages: Packages) -> Mesh:
         remedy = "convert it to STL, OBJ or COLLADA"
         raise DescriptionError("mesh-format", f"a mesh of the kind {kind!r} can't be drawn", file=file, remedy=remedy)
     try:
-        resolver = _materials_beside(file, packages) if kind == "obj" else None
-        scene = trimesh.load_scene(
-            io.BytesIO(file.read_bytes()), file_type=kind, process=False, resolver=resolver, maintain_order=True
-        )
-        unit = _UNIT.fullmatch(str(scene.units))
-        scale = float(unit[1]) if unit else 1.0
-        parts = [
-            _part(scene.geometry[name], np.asarray(T, dtype=np.float64), scale)
-            for T, name in (scene.graph[node] for node in scene.graph.nodes_geometry)
-            if hasattr(scene.geometry[name], "faces")
-        ]
+        with np.errstate(all="ignore"):  # what is not finite is refused below
+            resolver = _materials_beside(file, packages) if kind == "obj" else None
+            scene = trimesh.load_scene(
+                io.BytesIO(file.read_bytes()), file_type=kind, process=False, resolver=resolver, maintain_order=True
+            )
+            unit = _UNIT.fullmatch(str(scene.units))
+            scale = float(unit[1]) if unit else 1.0
+            parts = [
+                _part(scene.geometry[name], np.asarray(T, dtype=np.float64), scale)
+                for T, name in (scene.graph[node] for node in scene.graph.nodes_geometry)
+                if hasattr(scene.geometry[name], "faces")
+            ]
     except Exception as error:  # parsers of three formats fail in many ways, and any of them means the same
         what = f"can't be read as a mesh ({type(error).__name__}: {error})"
         raise DescriptionError("mesh-format", what, file=file) from error
