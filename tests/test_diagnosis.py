@@ -167,7 +167,7 @@ def hundredfold(shift: str = "30 0 0", axis: str = "0 1 0") -> ps.Robot:
 
 def test_metres_and_radians_have_tolerances_of_their_own() -> None:
     """In a robot of 100 m, 5e-11 m are rounding and 1e-11 rad are not."""
-    engines = ps.PoE(hundredfold()), ps.PoE(hundredfold(axis="1e-11 1 0"))
+    engines = ps.PoE(hundredfold()), ps.PoE(hundredfold("30 0 5e-11", axis="1e-11 1 0"))
     assert [line.split(" in PoE")[0] for line in ps.verify(hundredfold(), 20, engines=engines).diagnosis] == [
         "joint 'j2': its axis is turned by 5.72958e-10° (1e-11 rad)"
     ]
