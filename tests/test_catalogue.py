@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -237,3 +238,42 @@ def test_without_example_data(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(UnknownNameError) as caught:
         catalogue.find("zzzzqqqq")
     assert set(caught.value.known) == set(ASSIGNED)
+
+
+@pytest.fixture
+def descriptions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A package like robot_descriptions, whose modules name files."""
+    package = tmp_path / "robot_descriptions"
+    package.mkdir()
+    (package / "__init__.py").write_text("")
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text('<robot name="arm"><link name="base"/></robot>')
+    (package / "arm_description.py").write_text(f"URDF_PATH = {str(urdf)!r}")
+    (package / "muj_description.py").write_text("MJCF_PATH = 'x.xml'")
+    (package / "far_description.py").write_text("raise OSError('no network\\nat all')")
+    monkeypatch.syspath_prepend(tmp_path)
+    for name in [name for name in sys.modules if name.startswith("robot_descriptions")]:
+        monkeypatch.delitem(sys.modules, name)
+    return package
+
+
+@pytest.mark.usefixtures("descriptions")
+def test_modules_of_robot_descriptions_are_names() -> None:
+    assert ps.load("arm_description").frame_names == ("base",)
+    for name, code, words in (
+        ("muj_description", "no-file", "has no URDF"),
+        ("far_description", "unreadable", "does not get it (OSError: no network at all)"),
+    ):
+        with pytest.raises(DescriptionError) as caught:
+            ps.load(name)
+        assert caught.value.code == code
+        assert words in str(caught.value)
+    for name in ("none_description", "os.path_description", "../arm_description"):
+        with pytest.raises(UnknownNameError):
+            ps.load(name)
+
+
+def test_without_robot_descriptions(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(catalogue, "DESCRIPTIONS", "no_such_package")
+    with pytest.raises(UnknownNameError):
+        ps.load("arm_description")

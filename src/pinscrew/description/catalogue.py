@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import importlib
 import importlib.metadata
+import importlib.util
 import json
 import re
 from dataclasses import dataclass
@@ -13,11 +15,14 @@ from typing import Final
 
 from pinscrew.description import expand, markup
 from pinscrew.description.packages import is_file
-from pinscrew.ground.errors import MissingExtraError, UnknownNameError
+from pinscrew.ground.errors import DescriptionError, MissingExtraError, UnknownNameError
+from pinscrew.ground.words import brief, one_line
 
 __all__ = ["Entry", "bundled", "declared_arguments", "example_robots", "find", "is_path", "robots_directory"]
 
 EXAMPLE_DATA: Final = "example-robot-data"
+DESCRIPTIONS: Final = "robot_descriptions"
+_MODULE: Final = re.compile(r"[a-z0-9_]+_description")
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +101,7 @@ def is_path(source: str | Path, folder: Path = Path()) -> bool:
 
 
 def find(source: str | Path) -> Entry:
-    """The robot that ``source`` names: a path, a bundled robot, or a URDF of example-robot-data.
+    """The robot that ``source`` names: a path, a bundled robot, a URDF of example-robot-data, or of robot_descriptions.
 
     Text is taken as a path if it ends in ``.urdf``, ``.xacro`` or ``.xml``, or is an existing file.
 
@@ -118,11 +123,35 @@ def find(source: str | Path) -> Entry:
         if name == entry.name:
             return entry
     names += [entry.name for entry in others]
+    if (described := _described(name)) is not None:
+        return described
     near = difflib.get_close_matches(name, names, n=5, cutoff=0.5)
     near += [known for known in names if name.lower() in re.split(r"[/_-]", known.lower()) and known not in near]
     raise UnknownNameError(
         "unknown-robot", "robot or file", name, tuple(near) or tuple(entry.name for entry in bundled())
     )
+
+
+def _described(name: str) -> Entry | None:
+    """The robot of a module of robot_descriptions, such as ``ur5e_description``, where that package is installed.
+
+    Importing the module brings the robot's repository to its cache, unless it is there; that is the package's doing,
+    and pinscrew's only where such a name is asked for.
+    """
+    if not _MODULE.fullmatch(name) or importlib.util.find_spec(DESCRIPTIONS) is None:
+        return None
+    if importlib.util.find_spec(f"{DESCRIPTIONS}.{name}") is None:
+        return None
+    try:
+        module = importlib.import_module(f"{DESCRIPTIONS}.{name}")
+    except Exception as error:  # whatever git, the network or the module raises
+        what = f"{DESCRIPTIONS} does not get it ({type(error).__name__}: {one_line(brief(str(error)))})"
+        raise DescriptionError("unreadable", what, file=name) from error
+    for attribute in ("URDF_PATH", "XACRO_PATH"):
+        if (file := getattr(module, attribute, None)) is not None:
+            return Entry(name, Path(file))
+    remedy = "name one that has a URDF or a xacro file"
+    raise DescriptionError("no-file", f"the module of {DESCRIPTIONS} has no URDF", file=name, remedy=remedy)
 
 
 def _of_path(path: Path) -> Entry:
