@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import warnings
 from collections.abc import Callable
 from functools import cache
@@ -92,13 +93,33 @@ def test_known(name: str) -> None:
 @pytest.mark.parametrize("name", ["planar_2r", "scara", "anthropomorphic", "spherical", "stanford"])
 def test_never_singular(name: str) -> None:
     """The twists of these arms are always independent: there is no singularity of the whole motion."""
-    assert ps.find_singularities(load(name), starts=30) == ()
+    assert ps.find_singularities(load(name), task="pose", starts=30) == ()
+
+
+TASKS = {
+    "scara": ("position", {("joint2",)}),
+    "planar_2r": ("position", {("joint2",)}),
+    "ur5_robot": ("pose", None),
+    "one_joint": ("position", set()),
+}
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_the_task_that_a_person_means(name: str) -> None:
+    """The position of an arm of few joints, which is lost where a SCARA is stretched out; the pose of one of six."""
+    task, joints = TASKS[name]
+    found = ps.find_singularities(name, "tool0" if name == "ur5_robot" else None, starts=40)
+    assert (found.task, {one.task for one in found}) == (task, {task} if found else set())
+    assert f"{task} of {found.frame}" in str(found).splitlines()[0]
+    if joints is not None:
+        assert {one.joints for one in found} == joints
+    assert copy.copy(found).task == copy.deepcopy(found).task == task
 
 
 def test_families_of_planar_3r() -> None:
     """Stretched and folded; what is lost is the direction of the arm, the self-motion that of a parallelogram."""
     robot = ps.load("planar_rrr", l1=0.5, l2=0.4, l3=0.3)
-    found = ps.find_singularities(robot)
+    found = ps.find_singularities(robot, task="pose")
     assert {one.joints for one in found} == {("joint2",)}
     assert sorted(abs(float(one.q[1])) for one in found) == pytest.approx([0.0, np.pi], abs=1e-9)
     one = ps.classify_singularity(robot, [0.3, 0.0, 0.5])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final
 
 import numpy as np
@@ -13,7 +14,7 @@ from pinscrew.motion.freedoms import TURN, Freedoms, Task, freedoms
 from pinscrew.motion.singularity import TOLERANCE, ScaledJacobian, Singularity
 from pinscrew.robot.loading import RobotLike, robot_of
 
-__all__ = ["find_singularities"]
+__all__ = ["Singularities", "find_singularities"]
 
 STEPS: Final = 200
 LONGEST: Final = 0.5
@@ -24,18 +25,45 @@ SAME: Final = 1e-6
 """Difference of values of one joint (rad, or displacements over the characteristic length) that are the same."""
 
 
+class Singularities(tuple[Singularity, ...]):
+    """Singular configurations, one of each family, and what they are singular in.
+
+    Attributes:
+        robot: the robot's name.
+        frame: the frame's.
+        task: ``"pose"`` or ``"position"``.
+    """
+
+    robot: str
+    frame: str
+    task: Task
+
+    def __new__(cls, found: Iterable[Singularity], *, robot: str, frame: str, task: Task) -> Singularities:
+        self = super().__new__(cls, found)
+        self.robot, self.frame, self.task = robot, frame, task
+        return self
+
+    def __getnewargs_ex__(self) -> tuple[tuple[tuple[Singularity, ...]], dict[str, str]]:
+        return (tuple(self),), {"robot": self.robot, "frame": self.frame, "task": self.task}
+
+    def __str__(self) -> str:
+        families = "1 singular family" if len(self) == 1 else f"{len(self) or 'no'} singular families"
+        head = f"{self.robot}, {self.task} of {self.frame}: {families}"
+        return "\n".join([head, *map(str, self)])
+
+
 def find_singularities(
     robot: RobotLike,
     frame: str | None = None,
     *,
-    task: Task = "pose",
+    task: Task | None = None,
     limits: ArrayLike | None = None,
     starts: int = 100,
     seed: int = 0,
     tolerance: float = TOLERANCE,
     length: float | None = None,
     engine: Engine | None = None,
-) -> tuple[Singularity, ...]:
+) -> Singularities:
     """Singular configurations of ``frame`` within the limits, one of each family that is found.
 
     From configurations at random, Newton's method goes the shortest way to where the smallest singular value is zero.
@@ -44,13 +72,16 @@ def find_singularities(
     A family that no start leads to is not found, and what is found apart may be one family, met at a special point.
 
     Args:
-        robot, frame, task, tolerance, length, engine: see `classify_singularity`.
+        robot, frame, tolerance, length, engine: see `classify_singularity`.
+        task: see there; by default the one that a person means: the pose of a frame that can have any twist, else the
+            position. A SCARA, whose 6×3 Jacobian never loses rank, is singular where it is stretched out.
         limits: lower and upper limit of each entry of ``q``, shape (nq, 2); by default the robot's.
         starts: how many starts.
         seed: of the starts.
 
     Returns:
-        the singular configurations, those that the most starts led to first; other coordinates are neutral.
+        the singular configurations, those that the most starts led to first; other coordinates are neutral. It knows
+        the task, which there being none would not tell.
 
     Raises:
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
@@ -59,7 +90,7 @@ def find_singularities(
     """
     robot = robot_of(robot)
     free = freedoms(robot, frame, limits, length)
-    jacobian = ScaledJacobian(free, engine or PoE(robot), task, tolerance)
+    jacobian = _of_task(free, engine or PoE(robot), task, tolerance)
     x = _descend(jacobian, free.draw(seed, starts))
     found = [jacobian.classify(q) for q in free.put(robot.neutral, free.nearest_turn(x, np.zeros_like(x)))]
     families: dict[tuple[object, ...], list[Singularity]] = {}
@@ -67,7 +98,17 @@ def find_singularities(
         if one.singular:
             families.setdefault(_family(one, free), []).append(one)
     ordered = sorted(families.values(), key=len, reverse=True)
-    return tuple(min(family, key=lambda one: _distance(one, free)) for family in ordered)
+    nearest = (min(family, key=lambda one: _distance(one, free)) for family in ordered)
+    return Singularities(nearest, robot=robot.name, frame=free.frame, task=jacobian.task)
+
+
+def _of_task(free: Freedoms, engine: Engine, task: Task | None, tolerance: float) -> ScaledJacobian:
+    """The Jacobian of a task, or of the one that is meant where none is named."""
+    whole = ScaledJacobian(free, engine, task or "pose", tolerance)
+    if task is not None or whole.freedoms == 6:
+        return whole
+    position = ScaledJacobian(free, engine, "position", tolerance)
+    return position if position.freedoms else whole
 
 
 def _descend(jacobian: ScaledJacobian, x: FloatArray) -> FloatArray:

@@ -159,7 +159,7 @@ class ScaledJacobian:
             raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a small positive number, such as 1e-9")
         self.free = free
         self._engine = engine
-        self._task: Task = task
+        self.task: Task = task
         self._tolerance = tolerance
         self._weights = task_rows(task, free.length)
         # A Jacobian is analytic in q, so nearly every configuration has the largest rank, limits or not.
@@ -190,7 +190,7 @@ class ScaledJacobian:
         return Singularity(
             robot=robot.name,
             frame=free.frame,
-            task=self._task,
+            task=self.task,
             q=q,
             length=free.length,
             singular_values=values,
