@@ -215,6 +215,23 @@ def test_singularities_are_named(name: str, q: list[float], words: str, open_pag
     assert bool(words) == bool(page.text_content("#warning"))
 
 
+@pytest.mark.parametrize(("lower", "words"), [(-2.0, ""), (0.2, " (outside the limits)")])
+def test_a_singularity_near_by_is_met(lower: float, words: str, open_page: Open, tmp_path: Path) -> None:
+    """To rounding: a straight elbow is at 0, not at -0.001; and where it can't be reached, that is said."""
+    arm = urdfs.robot(
+        urdfs.joint("shoulder", "revolute", "base", "upper"),
+        urdfs.joint("elbow", "revolute", "upper", "lower", xyz="0.5 0 0", limits=(lower, 2.0)),
+        urdfs.joint("mount", "fixed", "lower", "tool", xyz="0.4 0 0"),
+        links="base upper lower tool",
+    )
+    model = Model.of(urdfs.load(arm), Looks(()), {})
+    page = open_page(saved(model, tmp_path, q=[0.3, 0.45]), offline=True)
+    page.wait_for_timeout(400)
+    near = page.evaluate("pinscrew.app.robot.singularityNear('tool', pinscrew.app.generic, [0.3, 0.45], 5000)")
+    assert near["q"][1] == pytest.approx(0.0, abs=1e-6)
+    assert page.text_content("#warning").endswith(f"of the position: elbow = 0.000{words}")
+
+
 BAD_NAMES = (
     "a/b",
     "/",

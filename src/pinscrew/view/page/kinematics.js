@@ -175,12 +175,14 @@
       const start = least(q);
       if (generic.rank === 0) return null;
       let at = q.slice();
-      for (let step = 0; step < 15 && performance.now() < deadline; step++) {
+      const found = () => {
+        const change = at.map((x, i) => x - q[i]);
+        return { q: at, change, distance: Math.hypot(...change) };
+      };
+      // Near the goal every step leaves a part of its square: to 1e-9, so that a straight elbow is 0 and not -0.001.
+      for (let step = 0; step < 20 && performance.now() < deadline; step++) {
         const here = least(at);
-        if (here < 1e-3 * start || here < 1e-9) {
-          const change = at.map((x, i) => x - q[i]);
-          return { q: at, change, distance: Math.hypot(...change) };
-        }
+        if (here < 1e-9) return found();
         const gradient = at.map((x, i) => {
           const h = 1e-5 * (this.coordinates[i].angle ? 1 : this.size);
           const ahead = at.slice(), behind = at.slice();
@@ -189,11 +191,11 @@
           return (least(ahead) - least(behind)) / (2 * h);
         });
         const square = gradient.reduce((sum, x) => sum + x * x, 0);
-        if (!(square > 1e-12)) return null;
+        if (!(square > 1e-12)) break;
         const length = Math.min(here / square, 0.4 / Math.sqrt(square));
         at = at.map((x, i) => x - length * gradient[i]);
       }
-      return null;
+      return least(at) < 1e-3 * start ? found() : null;
     }
   }
 

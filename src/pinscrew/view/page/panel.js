@@ -216,7 +216,7 @@
       byId("manipulability").textContent = [
         ["position", ` m${power[generic.parts.position]}`], ["rotation", ""],
       ].filter(([part]) => manipulability[part] !== null)
-        .map(([part, unit]) => `${part} ${short(manipulability[part])}${unit}`).join(", ") || "none";
+        .map(([part, unit]) => `${part} ${short(manipulability[part] < 1e-12 ? 0 : manipulability[part])}${unit}`).join(", ") || "none";
       const length = L.norm(line.direction);
       byId("screw").textContent = length === 0
         ? "no motion"
@@ -241,7 +241,12 @@
         const order = found.change.map((_, i) => i).sort((a, b) => Math.abs(found.change[b]) - Math.abs(found.change[a]));
         const main = order.filter((i) => Math.abs(found.change[i]) > 0.25 * Math.abs(found.change[order[0]])).slice(0, 2);
         const where = main.map((i) => `${names[i]} = ${fixed(found.q[i], 3)}`).join(", ");
-        words = `${ratio < 0.05 ? "near a singularity" : "a singularity"} ${of}: ${where}`;
+        const outside = main.some((i) => {
+          const { lower, upper } = this.app.document.coordinates[i];
+          return (lower !== null && found.q[i] < lower - 1e-6) || (upper !== null && found.q[i] > upper + 1e-6);
+        });
+        words = `${ratio < 0.05 ? "near a singularity" : "a singularity"} ${of}: ${where}`
+          + (outside ? " (outside the limits)" : "");
         level = ratio < 0.05 ? "near" : "";
       } else if (ratio < 0.05) {
         words = `near a singularity ${of}`;
