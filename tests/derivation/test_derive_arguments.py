@@ -61,7 +61,7 @@ def test_few_evaluations() -> None:
         calls.append(change)
         return ps.load("planar_rrr", arguments=change)
 
-    found = arguments.recover(robot, "tool", printed(robot, "tool"), loader)
+    found = arguments.recover(robot, ["tool"], printed(robot, ["tool"]), loader)
     assert list(found.symbols) == ["l1", "l2", "l3"]
     assert len(calls) == found.evaluations == 4  # one for each length, one that proves
 

@@ -32,6 +32,15 @@ Open = Callable[..., Any]
 SAME = "JSON.stringify(pinscrew.app.state.q) === JSON.stringify(value)"
 
 
+OFTEN = {"scara_rrp", "spherical_rrp", "lead_screw", "mixed", "free"}
+"""One with a slide, one with three axes at a point, one with a mimic, and two of every kind of joint."""
+
+
+def some(*names: str) -> list[Any]:
+    """Those of `OFTEN` in every run, the others in slow ones: each page takes Chromium two seconds."""
+    return [pytest.param(name, marks=() if name in OFTEN else pytest.mark.slow) for name in names]
+
+
 def robot_of(name: str) -> Robot:
     if name in ("mixed", "free"):
         return urdfs.load(MIXED if name == "mixed" else FREE, tip="tool")
@@ -88,7 +97,7 @@ def check(page: Any, robot: Robot, tip: str, q: FloatArray) -> None:
         assert abs(shown - engines[1].jacobian(q, tip, kind)).max(initial=0.0) <= half_digit
 
 
-@pytest.mark.parametrize("name", [*ARMS, pytest.param("panda", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", some(*ARMS, "panda"))
 def test_a_slider_moves_the_arm_as_both_engines_say(name: str, open_page: Open) -> None:
     model = model_of(name)
     robot = model.robot
@@ -111,7 +120,7 @@ def test_a_slider_moves_the_arm_as_both_engines_say(name: str, open_page: Open) 
         assert page.said == []
 
 
-@pytest.mark.parametrize("name", [*ARMS, "panda", "mixed", "free"])
+@pytest.mark.parametrize("name", some(*ARMS, "panda", "mixed", "free"))
 def test_the_file_computes_as_pinocchio_does_without_a_network(name: str, open_page: Open, tmp_path: Path) -> None:
     model = model_of(name)
     robot, tip = model.robot, model.tip
@@ -139,7 +148,7 @@ def test_the_file_computes_as_pinocchio_does_without_a_network(name: str, open_p
     assert len([url for url in page.asked if url.startswith("file:")]) == 1
 
 
-@pytest.mark.parametrize("name", [*ARMS, "mixed", "free"])
+@pytest.mark.parametrize("name", some(*ARMS, "mixed", "free"))
 def test_everything_is_drawn_where_the_scene_has_it(name: str, open_page: Open, tmp_path: Path) -> None:
     model = model_of(name)
     page = open_page(saved(model, tmp_path, draw=GROUPS), offline=True)

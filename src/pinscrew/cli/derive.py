@@ -31,6 +31,12 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 @arguments.robot_argument()
 @arguments.tip_option
 @click.option(
+    "--from",
+    "reference",
+    metavar="FRAME",
+    help="The frame in which it moves: another choice of frame 0, or any link; by default the base.",
+)
+@click.option(
     "--format",
     "form",
     type=click.Choice(["markdown", "latex", "html", "notebook"]),
@@ -106,6 +112,7 @@ def _report(
     form: str,
     *,
     tip: str | None,
+    reference: str | None,
     parts: tuple[str, ...],
     symbols: bool,
     named: dict[str, float],
@@ -126,6 +133,7 @@ def _report(
     derivation = derive(
         one.load(),
         tip,
+        reference=reference,
         symbols=symbols or named,
         snap=SNAP if snap is None else snap,
         loader=lambda change: arguments.Named(one.source, {**one.arguments, **change}, one.options).load(),

@@ -56,12 +56,12 @@ class Arguments:
     evaluations: int = 0
 
 
-def recover(robot: Robot, tip: str, joints: Mapping[str, Printed], load: Loader) -> Arguments:
+def recover(robot: Robot, frames: Sequence[str], joints: Mapping[str, Printed], load: Loader) -> Arguments:
     """The arguments of a robot's xacro file as symbols, as far as that is exact.
 
     Args:
         robot: the robot with the arguments as given.
-        tip: the frame whose joints matter.
+        frames: those whose joints matter.
         joints: from `reading.printed`.
         load: loads the file with other values of some arguments.
     """
@@ -81,7 +81,7 @@ def recover(robot: Robot, tip: str, joints: Mapping[str, Printed], load: Loader)
             found.numeric[name] = f"its value {text!r} is no number"
     if not base:
         return found
-    sampler = _Sampler(tip, load, base, joints, found)
+    sampler = _Sampler(frames, load, base, joints, found)
     together = {name: _moved(value, i + 1) for i, (name, value) in enumerate(base.items())}
     *singly, proof = sampler.all([*({name: _moved(value, 0)} for name, value in base.items()), together])
     alone = dict(zip(base, singly, strict=True))
@@ -115,9 +115,14 @@ class _Sampler:
     """Evaluates the file."""
 
     def __init__(
-        self, tip: str, load: Loader, base: dict[str, Fraction], joints: Mapping[str, Printed], found: Arguments
+        self,
+        frames: Sequence[str],
+        load: Loader,
+        base: dict[str, Fraction],
+        joints: Mapping[str, Printed],
+        found: Arguments,
     ) -> None:
-        self._tip = tip
+        self._frames = frames
         self._load = load
         self._base = base
         self._found = found
@@ -134,7 +139,7 @@ class _Sampler:
     def _one(self, change: Mapping[str, Fraction]) -> Sample | str:
         try:
             robot = self._load({name: _text(value) for name, value in change.items()})
-            joints = printed(robot, self._tip)
+            joints = printed(robot, self._frames)
         except PinscrewError:
             return "the file can't be used at other values of it"
         fixed = self.start[1]

@@ -49,6 +49,7 @@ class Moving:
         axis: ω, or for a sliding joint its direction: unit vector in the base frame at zero, shape (3,).
         point: q, the place of its origin in the base frame at zero (m), shape (3,).
         twist: ξ = (v, ω), v = -ω × q; (axis, 0) for a sliding joint; shape (6,).
+        frame: the pose of its own frame at zero, which it moves, in the base frame; shape (4, 4).
         master: the variable that it follows; its own if it follows none.
         multiplier: its value per unit of the master's, beyond what is in the home pose.
     """
@@ -58,6 +59,7 @@ class Moving:
     axis: Elements
     point: Elements
     twist: Elements
+    frame: Elements
     master: Variable
     multiplier: sp.Expr
 
@@ -70,7 +72,7 @@ class ScrewChain:
         algebra: what the elements are made of.
         joints: those that move the frame, from the base outwards.
         home: M, the frame's pose at zero, shape (4, 4).
-        coordinates: the independent variables, in the order of the robot's.
+        coordinates: the independent variables, in the order of the robot's, or along a way that leads back.
     """
 
     algebra: Algebra
@@ -81,22 +83,32 @@ class ScrewChain:
 
 def compose(
     geometry: Sequence[JointGeometry],
+    back: Sequence[str],
     on_path: Sequence[str],
     variables: Mapping[str, Variable],
     lengths: Sequence[sp.Symbol],
     order: Sequence[str],
 ) -> ScrewChain:
-    """The chain of the joints ``on_path``.
+    """The chain of the joints from one frame to another.
+
+    A joint has T_parent_child(θ) = T_parent_joint e^{axis θ}. Outwards these are multiplied as they are. On the way
+    ``back`` it is T_child_parent(θ) = e^{-axis θ} T_parent_joint⁻¹, the joint first and its origin after it: the same
+    joint about the opposite axis. At θ = 0 the product up to a joint gives its axis and a point of it in the first
+    frame. Two links, a turn about z, then one about x at [1, 0, 0] that is turned by 90° about z:
+
+        after joint 1: p = 0,         axis [0, 0, 1]
+        after joint 2: p = [1, 0, 0], R = Rz(90°), axis R [1, 0, 0] = [0, 1, 0]
 
     Args:
         geometry: of these joints and of the masters they follow.
-        on_path: names of the joints between base and frame, base first.
+        back: names of the joints from the first frame inwards to where the ways part.
+        on_path: names of the joints from there outwards to the second frame.
         variables: of the moving joints and their masters.
         lengths: the symbols that may occur in positions.
         order: names of the robot's coordinates.
     """
     by_name = {joint.name: joint for joint in geometry}
-    path = [by_name[name] for name in on_path]
+    path = [by_name[name] for name in (*back, *on_path)]
     numbers = [x for joint in path for M in (joint.R, joint.p, joint.axis) for x in M] + [j.offset for j in path]
     exact = not any(sp.sympify(x).has(sp.Float) for x in numbers)
     moving = [joint for joint in path if joint.type != "fixed"]
@@ -104,31 +116,45 @@ def compose(
     symbols = (*lengths, *sliding, *(variables[joint.name].rate for joint in moving))
     plain = Algebra((), symbols, _primes(numbers), exact=exact)
     poses, R, p = [], _array(plain, sp.eye(3)), _array(plain, sp.zeros(3, 1))[:, 0]
-    for joint in path:
-        p = p + R @ _array(plain, joint.p)[:, 0]
-        R = R @ _array(plain, joint.R)
-        axis = R @ _array(plain, joint.axis)[:, 0]
-        poses.append((axis, p))
-        if joint.type == "prismatic":
+    for number, joint in enumerate(path):
+        inwards = number < len(back)
+        if not inwards:
+            p = p + R @ _array(plain, joint.p)[:, 0]
+            R = R @ _array(plain, joint.R)
+        axis = R @ _array(plain, -joint.axis if inwards else joint.axis)[:, 0]
+        poses.append((axis, p, R))
+        if joint.type == "prismatic":  # what a mimic adds to its master's value is in the pose at zero
             p = p + axis * plain.constant(joint.offset)
         elif joint.type != "fixed" and joint.offset:
-            R = R @ _array(plain, _about(joint.axis, joint.offset))
+            R = R @ _array(plain, _about(joint.axis, -joint.offset if inwards else joint.offset))
+        if inwards:
+            R = R @ _array(plain, joint.R).T
+            p = p - R @ _array(plain, joint.p)[:, 0]
     at_zero = {joint.name: pose for joint, pose in zip(path, poses, strict=True)}
     groups = _groups([(variables[j.name].symbol, at_zero[j.name][0]) for j in moving if j.type != "prismatic"])
     algebra = Algebra(groups, symbols, _primes(numbers), exact=exact)
     lift = np.frompyfunc(lambda e: algebra.element(dict.fromkeys([algebra.one], e.terms[()]) if e else {}), 1, 1)
-    found = []
+    moved = []
     for joint in moving:
-        axis, point = (lift(x) for x in at_zero[joint.name])
+        axis, point, turn = (lift(x) for x in at_zero[joint.name])
         zero = np.array([algebra.constant(0)] * 3, dtype=object)
         revolute = joint.type != "prismatic"
         twist = np.concatenate([-cross(axis, point), axis] if revolute else [axis, zero])
         multiplier, master = joint.multiplier, variables[joint.master]
-        found.append(Moving(variables[joint.name], revolute, axis, point, twist, master, multiplier))
-    home = np.full((4, 4), algebra.constant(0), dtype=object)
-    home[:3, :3], home[:3, 3], home[3, 3] = lift(R), lift(p), algebra.constant(1)
-    masters = {joint.master for joint in moving}
-    return ScrewChain(algebra, tuple(found), home, tuple(variables[name] for name in order if name in masters))
+        frame = _pose(algebra, turn, point)
+        moved.append(Moving(variables[joint.name], revolute, axis, point, twist, frame, master, multiplier))
+    # Columns stand as the joints do along the way: outwards that is the robot's order, back it is the other way round.
+    masters = list(dict.fromkeys(joint.master for joint in moving))
+    masters = masters if back else [name for name in order if name in masters]
+    driving = tuple(variables[name] for name in masters)
+    return ScrewChain(algebra, tuple(moved), _pose(algebra, lift(R), lift(p)), driving)
+
+
+def _pose(algebra: Algebra, R: Elements, p: Elements) -> Elements:
+    """(R, p), shape (4, 4)."""
+    pose = np.full((4, 4), algebra.constant(0), dtype=object)
+    pose[:3, :3], pose[:3, 3], pose[3, 3] = R, p, algebra.constant(1)
+    return pose
 
 
 def _primes(numbers: Sequence[sp.Expr]) -> list[int]:

@@ -68,7 +68,7 @@ def _header(d: ClosedForms, kind: str) -> tuple[str, ...]:
     q = ", ".join(f"{v.joint} ({unit})" for v, unit in zip(d.coordinates, units, strict=True)) or "none"
     lengths = ", ".join(f"{s} = {float(value):.9g}" for s, value in d.lengths.items()) or "none"
     return (
-        f"Kinematics of {d.robot.name}: frame {d.tip} in frame {d.robot.base}.",
+        f"Kinematics of {d.robot.name}: frame {d.tip} in frame {d.reference}.",
         f"Closed forms by pinscrew {__version__}; lengths in m, angles in rad.",
         f"q, in this order: {q}",
         f"lengths, in this order: {lengths}",

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from typing import Any, Final, TypeAlias
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section
 from pinscrew.ground.escaping import latex, markdown
 
 __all__ = ["to_latex", "to_markdown", "to_notebook"]
@@ -156,8 +156,3 @@ def _section(section: Section) -> str:
 def _cell(kind: str, source: str) -> dict[str, Any]:
     cell: dict[str, Any] = {"cell_type": kind, "metadata": {}, "source": source.splitlines(keepends=True)}
     return cell | {"execution_count": None, "outputs": []} if kind == "code" else cell
-
-
-def is_table(block: Block) -> bool:
-    """Whether a block is a table."""
-    return isinstance(block, Table)

@@ -31,7 +31,7 @@ Convention: TypeAlias = Literal["mls", "lynch-park"]
 
 @dataclass(frozen=True, slots=True)
 class JointScrew:
-    """A joint's screw at zero, in the base frame.
+    """A joint's screw at zero, in the base frame or the frame that is taken for it.
 
     Attributes:
         joint: the joint's name.
@@ -66,6 +66,7 @@ class ClosedForms:
     Attributes:
         robot: the robot.
         tip: the frame whose motion this is.
+        reference: the frame in which it is: the base, or another.
         lengths: the symbols of lengths and other arguments, and their values as given.
         remarks: in words: which arguments stay numbers, and why.
         snapped: numbers of the file that were replaced by exact ones.
@@ -76,6 +77,7 @@ class ClosedForms:
 
     robot: Robot
     tip: str
+    reference: str
     lengths: Mapping[sp.Symbol, sp.Expr]
     remarks: tuple[str, ...]
     snapped: tuple[Snapped, ...]
@@ -100,7 +102,7 @@ class ClosedForms:
 
     @property
     def coordinates(self) -> tuple[Variable, ...]:
-        """The coordinates that move the frame, one for each column of the Jacobians, in the robot's order."""
+        """The coordinates that move the frame, one for each column of the Jacobians; from the base, in its order."""
         return self.chain.coordinates
 
     @property
@@ -153,7 +155,7 @@ class ClosedForms:
 
     @cached_property
     def pose(self) -> sp.ImmutableMatrix:
-        """g(θ), the pose in the base frame, shape (4, 4)."""
+        """g(θ), the pose in the frame `reference`, shape (4, 4)."""
         return self.write(self.normal.pose)
 
     @cached_property

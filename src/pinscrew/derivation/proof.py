@@ -14,8 +14,9 @@ import sympy as sp
 from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.numeric import evaluate
 from pinscrew.description import urdf
+from pinscrew.engines.base import Answers
 from pinscrew.ground.counts import whole
-from pinscrew.ground.typing import KINDS, FloatArray
+from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
 from pinscrew.lie import se3
 from pinscrew.robot.robot import Robot
 
@@ -170,15 +171,26 @@ def _answers(engine: type, d: ClosedForms, robots: list[Robot], q: FloatArray, q
         full += robot.neutral
         places = [robot.coordinate_names.index(v.joint) for v in d.coordinates]
         full[:, places], rates[:, columns] = q[start:end], qd[start:end]
-        answers = engine(robot).answers(full, rates, [d.tip])
-        pose = answers.poses[:, 0]
+        pose, jacobians = _relative(engine(robot).answers(full, rates, [d.tip, d.reference]))
         part = {"pose g": pose, "inverse g⁻¹": se3.inverse(pose)}
-        for kind in KINDS:
-            J = answers.jacobians[kind][:, 0][:, :, columns]
+        for kind, full_jacobian in jacobians.items():
+            J = full_jacobian[:, :, columns]
             part[f"{kind} Jacobian"], part[f"{kind} velocity"] = J, J @ qd[start:end, :, None]
         part["rate ġ"] = se3.hat(part["spatial velocity"][:, :, 0]) @ pose
         parts.append(part)
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def _relative(answers: Answers) -> tuple[FloatArray, dict[JacobianKind, FloatArray]]:
+    """The pose (N, 4, 4) of the first frame in the second, and the Jacobians (N, 6, nv) of this motion.
+
+    With g_AC = g_AB g_BC the body velocities are V_AC = Ad(g_BC⁻¹) V_AB + V_BC (MLS, proposition 2.15): B is here the
+    frame that the motion is seen from, and what is left after its own velocity is the velocity in it.
+    """
+    pose = se3.inverse(answers.poses[:, 1]) @ answers.poses[:, 0]
+    body = answers.jacobians["body"][:, 0] - se3.adjoint(se3.inverse(pose)) @ answers.jacobians["body"][:, 1]
+    turned = np.concatenate([pose[:, :3, :3] @ body[:, :3], pose[:, :3, :3] @ body[:, 3:]], axis=1)
+    return pose, {"spatial": se3.adjoint(pose) @ body, "body": body, "hybrid": turned}
 
 
 def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float]) -> Robot:
@@ -189,7 +201,7 @@ def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float]) -> Robo
     d = derivation
     base = d.robot.base
     by_name = {joint.name: joint for joint in d.robot.description.joints}
-    on_path = {joint.name for joint in d.robot.description.path(d.tip)}
+    on_path = {joint.name for frame in (d.tip, d.reference) for joint in d.robot.description.path(frame)}
     root = ET.Element("robot", name="variant")
     ET.SubElement(root, "link", name=base)
     for joint in d.geometry:

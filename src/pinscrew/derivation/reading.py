@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -74,21 +74,23 @@ class JointGeometry:
     offset: sp.Expr
 
 
-def printed(robot: Robot, tip: str) -> dict[str, Printed]:
-    """The joints between base and ``tip`` and the masters they mimic, in tree order, as the file prints them.
+def printed(robot: Robot, frames: Sequence[str]) -> dict[str, Printed]:
+    """The joints between base and ``frames`` and the masters they mimic, in tree order, as the file prints them.
 
     Raises:
         UnsupportedError: if a floating or planar joint, or more than `MOST_JOINTS` moving ones, are among them.
     """
     description = robot.description
-    path = list(reversed(list(description.path(tip))))
+    above = {joint.name for frame in frames for joint in description.path(frame)}
+    path = [joint for joint in description.joints if joint.name in above]
     moving = [joint for joint in path if joint.type != "fixed"]
     for joint in moving:
         if joint.type not in SCALAR_TYPES:
             what = f"joint {joint.name!r} is {joint.type}: closed forms are for revolute and prismatic joints"
             raise _unsupported("derive-joint", description, what, "name a tip that no such joint moves")
     if len(moving) > MOST_JOINTS:
-        what = f"{len(moving)} moving joints lead to {tip!r}: closed forms of more than {MOST_JOINTS} help nobody"
+        ends = " and ".join(map(repr, frames))
+        what = f"{len(moving)} moving joints lead to {ends}: closed forms of more than {MOST_JOINTS} help nobody"
         raise _unsupported("derive-size", description, what, "name a tip nearer to the base")
     elements = {
         element.attributes["name"]: element for element in markup.parse(description.text, description.file).all("joint")

@@ -42,7 +42,7 @@ def _given(derivation: Derivation) -> Section:
     n = NOTATIONS[d.convention]
     blocks: list[Block] = [
         Paragraph(
-            f"The motion of the frame {named(d.tip)} in {named(d.robot.base)}. Twists are in the order {n.order}; "
+            f"The motion of the frame {named(d.tip)} in {named(d.reference)}. Twists are in the order {n.order}; "
             f"lengths are in metres, angles in radians. Equations are those of {n.book}."
         )
     ]

@@ -52,6 +52,7 @@ def derive(
     robot: RobotLike,
     tip: str | None = None,
     *,
+    reference: str | None = None,
     symbols: bool | Mapping[str, float] = False,
     names: Naming = "theta",
     convention: Convention = "mls",
@@ -67,6 +68,8 @@ def derive(
     Args:
         robot: a robot, or a name or path that `load` takes.
         tip: the frame; by default the robot's tip.
+        reference: the frame in which it moves; by default the base. It may be any link: one fixed to the base is
+            another choice of frame 0, between two others that move are the joints that lie between them.
         symbols: name the distinct lengths that are still numbers l1, l2, …; or these lengths (m), by name.
         names: call the joints' values θ1, θ2, … (``"theta"``), those of sliding joints d3 (``"d"``), or as the
             file does (``"urdf"``).
@@ -87,9 +90,11 @@ def derive(
         raise InputError("derive-option", f"snap={snap}", remedy="give an angle from 0 to 0.1 rad")
     robot = robot_of(robot)
     tip = robot.frame(tip)
-    joints = reading.printed(robot, tip)
+    reference = robot.base if reference is None else robot.frame(reference)
+    frames = tuple(dict.fromkeys((tip, reference)))
+    joints = reading.printed(robot, frames)
     variables = _variables(joints, names)
-    found = arguments.recover(robot, tip, joints, loader or _reload(robot))
+    found = arguments.recover(robot, frames, joints, loader or _reload(robot))
     lengths: dict[sp.Symbol, sp.Expr] = {
         found.symbols[name]: sp.Rational(value.numerator, value.denominator) for name, value in found.values.items()
     }
@@ -105,16 +110,17 @@ def derive(
     geometry = reading.geometry(joints, value, snaps)
     named.finish()
     _check_names(robot, list(lengths), list(variables.values()))
-    path = [joint.name for joint in reversed(list(robot.description.path(tip))) if joint.name in joints]
+    back, path = _between(robot, reference, tip)
     used = {symbol for joint in geometry for symbol in joint.p.free_symbols | joint.offset.free_symbols}
     derivation = Derivation(
         robot=robot,
         tip=tip,
+        reference=reference,
         lengths=lengths,
         remarks=tuple(f"argument {name} stays a number: {why}" for name, why in found.numeric.items()),
         snapped=tuple(snaps.found),
         convention=convention,
-        chain=compose(geometry, path, variables, [s for s in lengths if s in used], robot.joint_names),
+        chain=compose(geometry, back, path, variables, [s for s in lengths if s in used], robot.joint_names),
         geometry=geometry,
         variables=tuple(variables.values()),
     )
@@ -124,6 +130,15 @@ def derive(
         remedy = "name a tip nearer to the base, or give exact angles (an axis of 0 0 1, not of 0.001 0 1)"
         raise UnsupportedError("derive-growth", str(error), file=robot.description.file, remedy=remedy) from None
     return derivation
+
+
+def _between(robot: Robot, start: str, tip: str) -> tuple[list[str], list[str]]:
+    """The joints from ``start`` inwards to where the ways to both frames part, and those from there out to ``tip``."""
+    inwards = [joint.name for joint in robot.description.path(start)]
+    outwards = [joint.name for joint in robot.description.path(tip)]
+    while inwards and outwards and inwards[-1] == outwards[-1]:
+        del inwards[-1], outwards[-1]
+    return inwards, outwards[::-1]
 
 
 def _reload(robot: Robot) -> arguments.Loader:

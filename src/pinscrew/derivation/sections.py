@@ -97,7 +97,7 @@ class _Writer:
 
     def home(self) -> Iterable[Block]:
         d, n = self.d, self.n
-        yield Paragraph(f"At zero the frame {named(d.tip)} stands in {named(d.robot.base)} at")
+        yield Paragraph(f"At zero the frame {named(d.tip)} stands in {named(d.reference)} at")
         yield Formula((n.home, self.set.matrix(d.home)))
         if d.screws:
             yield Paragraph("and the joints that move it have these axes, each through a point $q$:")

@@ -14,7 +14,7 @@ from pinscrew.motion.freedoms import TURN, Freedoms, Task, freedoms
 from pinscrew.motion.singularity import TOLERANCE, ScaledJacobian, Singularity
 from pinscrew.robot.loading import RobotLike, robot_of
 
-__all__ = ["Singularities", "find_singularities"]
+__all__ = ["SingularFamilies", "find_singularities"]
 
 STEPS: Final = 200
 LONGEST: Final = 0.5
@@ -25,7 +25,7 @@ SAME: Final = 1e-6
 """Difference of values of one joint (rad, or displacements over the characteristic length) that are the same."""
 
 
-class Singularities(tuple[Singularity, ...]):
+class SingularFamilies(tuple[Singularity, ...]):
     """Singular configurations, one of each family, and what they are singular in.
 
     Attributes:
@@ -38,7 +38,7 @@ class Singularities(tuple[Singularity, ...]):
     frame: str
     task: Task
 
-    def __new__(cls, found: Iterable[Singularity], *, robot: str, frame: str, task: Task) -> Singularities:
+    def __new__(cls, found: Iterable[Singularity], *, robot: str, frame: str, task: Task) -> SingularFamilies:
         self = super().__new__(cls, found)
         self.robot, self.frame, self.task = robot, frame, task
         return self
@@ -63,7 +63,7 @@ def find_singularities(
     tolerance: float = TOLERANCE,
     length: float | None = None,
     engine: Engine | None = None,
-) -> Singularities:
+) -> SingularFamilies:
     """Singular configurations of ``frame`` within the limits, one of each family that is found.
 
     From configurations at random, Newton's method goes the shortest way to where the smallest singular value is zero.
@@ -99,7 +99,7 @@ def find_singularities(
             families.setdefault(_family(one, free), []).append(one)
     ordered = sorted(families.values(), key=len, reverse=True)
     nearest = (min(family, key=lambda one: _distance(one, free)) for family in ordered)
-    return Singularities(nearest, robot=robot.name, frame=free.frame, task=jacobian.task)
+    return SingularFamilies(nearest, robot=robot.name, frame=free.frame, task=jacobian.task)
 
 
 def _of_task(free: Freedoms, engine: Engine, task: Task | None, tolerance: float) -> ScaledJacobian:
