@@ -114,6 +114,7 @@ def compose(
     moving = [joint for joint in path if joint.type != "fixed"]
     sliding = [variables[joint.name].symbol for joint in moving if joint.type == "prismatic"]
     symbols = (*lengths, *sliding, *(variables[joint.name].rate for joint in moving))
+    # Axes at zero are found first, with no angles in the algebra: which joints form a group is read off them.
     plain = Algebra((), symbols, _primes(numbers), exact=exact)
     poses, R, p = [], _array(plain, sp.eye(3)), _array(plain, sp.zeros(3, 1))[:, 0]
     for number, joint in enumerate(path):
@@ -128,6 +129,7 @@ def compose(
         elif joint.type != "fixed" and joint.offset:
             R = R @ _array(plain, _about(joint.axis, -joint.offset if inwards else joint.offset))
         if inwards:
+            # T_parent_joint⁻¹ = (Rᵀ, -Rᵀp), MLS eq. 2.24, after the joint.
             R = R @ _array(plain, joint.R).T
             p = p - R @ _array(plain, joint.p)[:, 0]
     at_zero = {joint.name: pose for joint, pose in zip(path, poses, strict=True)}
@@ -139,6 +141,7 @@ def compose(
         axis, point, turn = (lift(x) for x in at_zero[joint.name])
         zero = np.array([algebra.constant(0)] * 3, dtype=object)
         revolute = joint.type != "prismatic"
+        # ξ = (-ω × q, ω) or (v, 0): MLS eq. 2.26 and 2.28.
         twist = np.concatenate([-cross(axis, point), axis] if revolute else [axis, zero])
         multiplier, master = joint.multiplier, variables[joint.master]
         frame = _pose(algebra, turn, point)
@@ -181,6 +184,7 @@ def _groups(turning: Sequence[tuple[sp.Symbol, Elements]]) -> list[list[sp.Symbo
     groups: list[list[sp.Symbol]] = []
     last: Elements | None = None
     for symbol, axis in turning:
+        # Parallel at zero is parallel always: between them only turns about the axis itself, and slides.
         if last is not None and not any(cross(last, axis)):
             groups[-1].append(symbol)
         else:

@@ -65,6 +65,7 @@ class Factoring:
 
     def _split(self, terms: Terms, *, exact: bool) -> sp.Expr:
         """What all terms share, times the rest."""
+        # Example: l1 c1 c3 + l2 c1 s3 shares c1, and is c1 (l1 c3 + l2 s3).
         shared = _shared(terms)
         outside = [self.atoms.symbol(g, atom) for g, atom in enumerate(shared) if atom is not None]
         common = _content([poly for _, poly in terms], exact=exact)
@@ -81,6 +82,8 @@ class Factoring:
         """A sum without common factors, parted as it is shortest."""
         if len(terms) == 2:
             return sp.Add(*(self._term(key, poly) for key, poly in terms))
+        # Example: l1 c1 + l2 c1 c2 + l2 s1 s2 is c1 (l1 + l2 c2) + l2 s1 s2, parted by the first group, and
+        # l1 c1 + l2 (c1 c2 + s1 s2), parted by coefficients. The shortest is kept.
         groups = range(len(terms[0][0]))
         partings = [_parted(terms, lambda key, _, g=g: key[g]) for g in groups]  # type: ignore[misc]
         partings.append(_parted(terms, lambda _, poly: tuple(sorted(poly.monic().items()))))
@@ -140,6 +143,7 @@ def _content(polys: Sequence[PolyElement], *, exact: bool) -> PolyElement:
         common = first.ring.one if common.is_ground else common.monic()
     else:
         common = _monomial(polys)
+    # -(a + b) rather than (-a - b), with one sign outside.
     negative = all(poly.LC < 0 for poly in polys)
     return -common if negative == (common.LC > 0) else common
 

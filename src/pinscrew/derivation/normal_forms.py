@@ -125,6 +125,7 @@ class NormalForms:
         columns = []
         for g, tail, joint in zip(self.before, self.tails, self._joints, strict=True):
             R = g[:3, :3]
+            # With g = e₁ … e_{i-1} and e_i … e_n g(0) = (·, p): at the joint, the tip moves by ω × (p - q).
             arm = cross(joint.axis, tail[:3, 3] - joint.point) if joint.revolute else joint.axis
             columns.append(np.concatenate([R @ arm, R @ joint.axis if joint.revolute else joint.twist[3:]]))
         return self._columns(columns)
@@ -170,10 +171,13 @@ class NormalForms:
         for joint in joints:
             v, w = twist[:3], twist[3:]
             if joint.revolute:
+                # At q, the twist (v, ω) is (v + ω × q, ω); turned there, and taken back to the origin. Such as a slide
+                # along x before a quarter turn about z: v = R [1, 0, 0] = [0, 1, 0], for any q, since ω = 0.
                 R = self._turn(joint, back=back)
                 w_turned = R @ w
                 twist = np.concatenate([R @ (v + cross(w, joint.point)) - cross(w_turned, joint.point), w_turned])
             else:
+                # Ad of a translation p: (v + p × ω, ω); MLS eq. 2.58 with R = I.
                 p = joint.axis * self._algebra.constant(joint.variable.symbol)
                 moved = cross(p, w)
                 twist = np.concatenate([v - moved if back else v + moved, w])

@@ -112,6 +112,7 @@ class _Polynomials:
     def polynomial(self, element: Element) -> PolyElement:
         """An element as a polynomial."""
         out = self.ring.zero
+        # cos(m·θ) and sin(m·θ) by their addition theorems, one angle at a time: c12 becomes c1 c2 - s1 s2.
         for key, poly in element.terms.items():
             zeros = (0,) * (2 * len(self.angles))
             term = self.ring.from_dict({(*monomial, *zeros): c for monomial, c in poly.items()})
@@ -191,10 +192,11 @@ class _Polynomials:
         minors: dict[tuple[int, ...], PolyElement] = {(): self.ring.one}
         for row in rows:
             longer: dict[tuple[int, ...], PolyElement] = {}
+            # Minors of the rows so far by their columns: 2ⁿ of them instead of n! products.
             for columns, minor in minors.items():
                 for j, entry in enumerate(row):
                     if entry and minor and j not in columns:
-                        place = sum(k > j for k in columns)
+                        place = sum(k > j for k in columns)  # how many columns the new one stands before: its sign
                         chosen = tuple(sorted((*columns, j)))
                         term = self.reduced(minor * entry)
                         longer[chosen] = longer.get(chosen, self.ring.zero) + (-term if place % 2 else term)
@@ -230,6 +232,7 @@ class _Polynomials:
         divisor, other = (s, c) if sine else (c, s)
         poly = self.reduced(poly, cosines=not sine)
         i = self.ring.gens.index(divisor)
+        # a(c) + b(c) s, as s² = 1 - c² leaves s to the first power. Example: c² - 1 - 2 c s is (-s - 2 c) s.
         b = self.ring.from_dict({(*m[:i], 0, *m[i + 1 :]): x for m, x in poly.items() if m[i]})
         a = poly - b * divisor
         # a vanishes where the other is ±1, so that it is (1 - other²) a′

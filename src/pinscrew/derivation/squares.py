@@ -29,6 +29,8 @@ def sum_of_squares(minors: Sequence[sp.Expr], explicit: Mapping[sp.Symbol, sp.Ex
     partner = {}
     for symbol, meaning in explicit.items():
         partner[symbol] = (isinstance(meaning, sp.cos), meaning.args[0])
+    # Pairs until none is left: the sum of two squares may be half of another pair, as in
+    # (a c1 c2)² + (a c1 s2)² + (a s1)² = (a c1)² + (a s1)² = a².
     again = True
     while again:
         again = False
@@ -54,6 +56,7 @@ def blocks(matrix: Elements) -> list[tuple[list[int], list[int]]]:
     separate: list[tuple[list[int], list[int]]] = []
     for column in range(matrix.shape[1]):
         rows = {row for row in range(matrix.shape[0]) if matrix[row, column]}
+        # Columns that share a row stand in one block; a column may join two blocks that were apart.
         touched = [block for block in separate if rows & set(block[0])]
         separate = [block for block in separate if block not in touched]
         columns = [column, *(k for _, those in touched for k in those)]

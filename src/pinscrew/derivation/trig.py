@@ -44,6 +44,7 @@ def _times(a: Atom, b: Atom) -> tuple[tuple[Atom | None, Fraction], ...]:
     (a_sine, m), (b_sine, n) = a, b
     plus = tuple(i + j for i, j in zip(m, n, strict=True))
     minus = tuple(i - j for i, j in zip(m, n, strict=True))
+    # Such as s1 · c12: m = (1,0), n = (1,1), ½ S(2,1) + ½ S(0,-1), which `_atom` makes ½ s(2·1+2) - ½ s2.
     half = Fraction(1, 2)
     if a_sine and b_sine:
         terms = (_atom(False, minus, half), _atom(False, plus, -half))
@@ -69,6 +70,7 @@ def _atom(sine: bool, m: tuple[int, ...], factor: Fraction) -> tuple[Atom | None
 @cache
 def _product(a: Key, b: Key) -> tuple[tuple[Key, Fraction], ...]:
     """The product of two keys as a sum."""
+    # Groups are independent of each other, so that their products multiply out: (a + b)(c + d) over the groups.
     found: list[tuple[Key, Fraction]] = [((), Fraction(1))]
     for x, y in zip(a, b, strict=True):
         factors = ((x or y, Fraction(1)),) if x is None or y is None else _times(x, y)
@@ -184,6 +186,7 @@ class Algebra:
             m = tuple(coefficients.get(angle, 0) for angle in group)
             if any(m):
                 c, s = self._of_group(g, m, sine=False), self._of_group(g, m, sine=True)
+                # cos(a + b) and sin(a + b): across groups they stay products, which is their normal form.
                 cosine, sine = cosine * c - sine * s, sine * c + cosine * s
         return cosine, sine
 
@@ -273,6 +276,7 @@ class Element:
         for key, poly in self.terms.items():
             atom = key[group]
             if atom is not None and atom[1][i]:
+                # d/dθᵢ C_m = -mᵢ S_m and d/dθᵢ S_m = mᵢ C_m: the other atom of the same m.
                 turned = (*key[:group], (not atom[0], atom[1]), *key[group + 1 :])
                 terms[turned] = poly.mul_ground(QQ(atom[1][i] if atom[0] else -atom[1][i]))
         return self.algebra.element(terms)

@@ -127,11 +127,14 @@ class Descent:
         free, weights = self._free, self._weights
         J = self._engine.jacobian(free.put(self._q, x), free.frame, "body")[:, : len(weights), free.v]
         if len(weights) == 6:
+            # ė = -𝒥⁻¹(e) J q̇: what is solved is 𝒥⁻¹J dq = e.
             J = se3.left_jacobian_inverse(error / weights) @ J
         A = weights[:, None] * J * free.scales
         H = np.swapaxes(A, 1, 2) @ A
         g = (A * error[:, :, None]).sum(axis=1)
         diagonal = np.arange(len(free.q))
+        # Levenberg and Marquardt: (AᵀA + λI) dq = Aᵀe with λ in proportion to ‖e‖² (Sugihara), and a floor in
+        # proportion to H itself, so that it has an inverse where A has lost rank.
         H[:, diagonal, diagonal] += (damping * (error**2).sum(axis=1) + FLOOR * np.trace(H, axis1=1, axis2=2))[:, None]
         y = _solved(H, g)
         stuck = np.zeros(y.shape, dtype=bool)

@@ -135,9 +135,11 @@ def inverse_velocity(
     rows = _weights(task_weights, "task_weights", 6) * np.repeat([1.0 / _positive(length, "length") ** 2, 1.0], 3)
     rows = np.sqrt(rows)
     columns = 1.0 / np.sqrt(_weights(joint_weights, "joint_weights", n, zero=False))
+    # A row without weight asks for nothing, and would count as a lost direction: it is left out.
     active = rows > 0.0
     if not active.any():
         raise InputError("weights", "all task_weights are 0", where=_WHERE, remedy="give one of them a weight")
+    # With y = W_q^½ θ̇, the least ‖W_x^½ S (J θ̇ - V)‖ and ‖W_q^½ θ̇‖ are the least ‖A y - b‖ and ‖y‖.
     A = (rows[:, None] * jacobian * columns)[..., active, :]
     b = np.broadcast_to((rows * twist)[..., active], (*batch, int(active.sum())))
     limit = (NORMAL_RCOND if method == "normal" else RCOND) if rcond is None else _positive(rcond, "rcond")
@@ -151,12 +153,14 @@ def inverse_velocity(
     else:
         if method == "damped":
             damped = _damping(sigma[..., -1], _positive(damping, "damping"), _positive(threshold, "threshold"))
+        # A = U Σ Vᵀ: Jᵀ(JJᵀ + λ²I)⁻¹ = V diag(σ / (σ² + λ²)) Uᵀ, which for λ = 0 is J⁺ = V diag(1/σ) Uᵀ.
         power = sigma**2 + damped[..., None] ** 2
         # With damping, small singular values are tamed and none is cut off but where nothing is left of it.
         wanted = kept if method == "pinv" else power > 0.0
         inverse = np.divide(sigma, power, out=np.zeros_like(sigma), where=wanted)
         y = _apply(np.swapaxes(Vt, -1, -2), inverse * _apply(np.swapaxes(U, -1, -2), b))
     if wish is not None:
+        # (I - A⁺A) z = z - V Vᵀz over the σ that count: no twist of the weighted task comes of it.
         z = wish / columns
         y = y + z - _apply(np.swapaxes(Vt, -1, -2), kept * _apply(Vt, z))
     qd = columns * y
@@ -195,6 +199,7 @@ def rate_bounds(robot: Robot, q: ArrayLike, dt: float) -> tuple[FloatArray, Floa
         if motion.joint.mimic is None:
             speeds[motion.v] = motion.joint.limits.velocity
     lower, upper = robot.limits.T
+    # q + θ̇ dt stays within [lower, upper]; 0 stays allowed for a coordinate that is outside already.
     return (
         np.minimum(np.maximum(-speeds, (lower - values) / step), 0.0),
         np.maximum(np.minimum(speeds, (upper - values) / step), 0.0),
@@ -208,6 +213,8 @@ def _damping(smallest: FloatArray, largest: float, threshold: float) -> FloatArr
 
 def _scale(qd: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:
     """The largest factor up to 1 with which all rates are within their bounds."""
+    # One factor for all, since J (s θ̇) = s J θ̇: the twist keeps its direction. Example: rates (2, 1) with bounds
+    # of ±1 become (1, ½), and not (1, 1), which is another motion.
     bound = np.where(qd > 0.0, upper, lower)
     outside = (qd > upper) | (qd < lower)
     factors = np.divide(bound, qd, out=np.ones(outside.shape), where=outside)

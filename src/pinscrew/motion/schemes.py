@@ -60,6 +60,8 @@ def coordinate_steps(
         entries = [0, 1, 5] if motion.joint.type == "planar" else list(range(6))
         first, last = np.zeros((2, len(steps), 6))
         first[:, entries], last[:, entries] = begin[:, motion.velocities], end[:, motion.velocities]
+        # T' = T V̂ goes on by exp(Ω) with Ω = ∫V dt + ½∫∫[V(s), V(r)] dr ds …; with V linear between its
+        # ends, the commutator term is dt²/12 [V(0), V(dt)].
         bracket = (se3.ad(first) @ last[:, :, None])[:, :, 0]
         steps[:, motion.velocities] += (dt**2 / 12.0) * bracket[:, entries]
     return steps

@@ -118,14 +118,17 @@ def _descend(jacobian: ScaledJacobian, x: FloatArray) -> FloatArray:
     for _ in range(STEPS):
         q = free.put(free.robot.neutral, x[going])
         U, values, Vt = np.linalg.svd(jacobian.matrix(q))
+        # σ = uᵀ J z, so that ∂σ/∂qᵢ = uᵀ (∂J/∂qᵢ) z, as u and z stay unit vectors (Golub & Van Loan, 8.6.1). The
+        # shortest step that Newton's method makes of σ + gᵀ dq = 0 is dq = -σ g / ‖g‖².
         sigma = values[:, last]
         g = np.einsum("na,niab,nb->ni", U[:, :, last], jacobian.derivatives(q), Vt[:, last])
-        g[free.held(x[going], -g)] = 0.0
+        g[free.held(x[going], -g)] = 0.0  # a coordinate at its limit can't go further
         slope = np.linalg.norm(g, axis=1)
         on = (sigma > ZERO) & (slope > ZERO)  # where there is no slope, it is as small as can be
         going, g, slope = going[on], g[on], slope[on]
         if not len(going):
             break
+        # Far away the tangent promises too much: where σ is nearly flat, the full step is many turns long.
         length = np.minimum(sigma[on] / slope, LONGEST)
         x[going] = free.brought_within(x[going] - free.scales * (length / slope)[:, None] * g)
     return x

@@ -93,7 +93,8 @@ class Singularity:
     def wrench_screws(self) -> tuple[Screw, ...]:
         """The lines and pitches of the wrenches, in the base frame: pitch 0 for a force, ∞ for a couple."""
         p = self.T_base_frame[:3, 3]
-        # A wrench has the direction of its force and the moment that a twist has as its velocity.
+        # A wrench (f, τ) about p has about the origin the moment τ + p × f; as a screw, f stands for a twist's ω and
+        # the moment for its v (MLS 2.5, ray and axis coordinates).
         screws = (Screw.from_twist([*(F[3:] + np.cross(p, F[:3])), *F[:3]]) for F in self.wrenches.T)
         return tuple(replace(s, pitch=0.0) if abs(s.pitch) < TOLERANCE * self.length else s for s in screws)
 
@@ -177,13 +178,18 @@ class ScaledJacobian:
         # What the next configurations bring back of what this one can't do: (left, m, kernel).
         regained = np.einsum("al,iab,bk->lik", left, dJ, kernel)
         lost = left
+        # Three cases. Full rank: nothing is lost. A task of which something can never be done (rank at most m < k, such
+        # as tilting for a SCARA): of the left null space only what neighbours regain is lost here. Else all of it.
         if rank == self.freedoms:
             lost = left[:, :0]
         elif self.freedoms < len(self._weights):
             directions, strengths, _ = np.linalg.svd(regained.reshape(left.shape[1], -1))
             lost = left @ directions[:, : int((strengths > DEPENDS * max(1.0, strengths[0])).sum())]
+        # On which joints σ = 0 depends: ∂σ/∂qᵢ = uᵀ (∂J/∂qᵢ) z, over all pairs of u and z.
         share = np.linalg.norm(np.einsum("al,iab,bk->lik", lost, dJ, kernel), axis=(0, 2))
         depends = share > DEPENDS * max(1.0, share.max())
+        # Rows were divided by lengths: a direction of motion goes back by them, a wrench against them, so that F·V is
+        # the same power in both.
         lengths = 1.0 / self._weights
         motions = np.zeros((robot.nv, kernel.shape[1]))
         motions[free.v] = free.scales[:, None] * _tidy(kernel)
