@@ -65,7 +65,7 @@ BAD: list[tuple[list[str], Any]] = [
     (["one_joint", "--part", "z"], "derive-part"),
     (["planar_2r", "--symbol", "c1=1"], "symbol-collision"),
     (["planar_2r", "--symbol", "a=7"], "derive-option"),
-    (["drone", "--errata"], "no-errata"),
+    (["gear_pair", "--errata"], "no-errata"),
     (["one_joint", "-o", "/nowhere/out"], "unwritable"),
 ]
 

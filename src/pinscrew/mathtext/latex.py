@@ -7,17 +7,13 @@ it is read in two ways. What cannot be read is refused with its place, never gue
 from __future__ import annotations
 
 import re
-from typing import Final, NoReturn
+from typing import Final
 
 from pinscrew.ground.errors import InputError
+from pinscrew.mathtext.tokens import CLOSING, LONGEST, TokenReader
 from pinscrew.mathtext.tree import Node, Number, Operation, Operator, Symbol
 
 __all__ = ["read_latex", "read_latex_matrix"]
-
-LONGEST: Final = 100_000
-"""Characters of a text."""
-DEEPEST: Final = 60
-"""Parentheses and braces within one another."""
 
 _TOKEN: Final = re.compile(r"\s+|\\[A-Za-z]+|\\.|\d+\.?\d*|\.\d+|.", re.DOTALL)
 _SPACES: Final = {r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\displaystyle"}
@@ -40,7 +36,6 @@ _GREEK: Final = {
 }
 _FUNCTIONS: Final[dict[str, Operator]] = {r"\cos": "cos", r"\sin": "sin", r"\tan": "tan"}
 _NAMES: Final = {r"\mathrm", r"\text", r"\operatorname", r"\mathit"}
-_CLOSING: Final = {"(": ")", "[": "]", "{": "}"}
 _MATRIX: Final = re.compile(
     r"\s*\\begin\{([bpvBV]?matrix|smallmatrix)\}(?P<inside>(?:(?!\\begin).)*?)\\end\{\1\}\s*", re.DOTALL
 )
@@ -82,43 +77,17 @@ def read_latex_matrix(text: str) -> tuple[tuple[Node, ...], ...]:
     return tuple(rows)
 
 
-class _Reader:
+class _Reader(TokenReader):
     """Reads one text by descent, each rule a method."""
 
     def __init__(self, text: str, place: int = 0) -> None:
-        if len(text) > LONGEST:
-            raise InputError("formula", f"the text is longer than {LONGEST} characters")
-        self._tokens = [
-            (match[0], place + match.start())
-            for match in _TOKEN.finditer(text)
-            if not match[0].isspace() and match[0] not in _SPACES | _SIZES
-        ]
-        self._end = place + len(text)
-        self._at = 0
-        self._depth = 0
+        super().__init__(text, _TOKEN, _SPACES | _SIZES, place)
 
     def whole(self) -> Node:
         node = self._sum()
         if self._token():
             self._refuse(f"{self._token()!r} is not expected")
         return node
-
-    def _token(self) -> str:
-        return self._tokens[self._at][0] if self._at < len(self._tokens) else ""
-
-    def _next(self) -> str:
-        token = self._token()
-        self._at += 1
-        return token
-
-    def _refuse(self, reason: str) -> NoReturn:
-        place = self._tokens[self._at][1] if self._at < len(self._tokens) else self._end
-        raise InputError("formula", reason, where=f"character {place + 1} of the formula")
-
-    def _expect(self, token: str) -> None:
-        if self._token() != token:
-            self._refuse(f"{token!r} is missing")
-        self._at += 1
 
     def _sum(self) -> Node:
         terms: list[Node] = []
@@ -150,7 +119,7 @@ class _Reader:
     def _starts(self) -> bool:
         token = self._token()
         known = _GREEK | set(_FUNCTIONS) | _NAMES | {r"\frac", r"\tfrac", r"\dfrac", r"\sqrt", r"\dot", r"\pi"}
-        return token in known or token in _CLOSING or bool(re.match(r"[A-Za-z\d.]", token))
+        return token in known or token in CLOSING or bool(re.match(r"[A-Za-z\d.]", token))
 
     def _power(self) -> Node:
         base = self._unit()
@@ -168,10 +137,8 @@ class _Reader:
         return self._unit()
 
     def _bracketed(self) -> Node:
-        closing = _CLOSING[self._next()]
-        self._depth += 1
-        if self._depth > DEEPEST:
-            self._refuse(f"more than {DEEPEST} parentheses stand within one another")
+        closing = CLOSING[self._next()]
+        self._deeper()
         node = self._sum()
         self._expect(closing)
         self._depth -= 1
@@ -181,7 +148,7 @@ class _Reader:
         ahead = self._token()
         if re.match(r"\.?\d", ahead):
             return Number(float(self._next()))
-        if ahead in _CLOSING:
+        if ahead in CLOSING:
             return self._bracketed()
         if ahead in (r"\frac", r"\tfrac", r"\dfrac"):
             self._at += 1
@@ -206,7 +173,7 @@ class _Reader:
             exponent = self._argument()
             if not isinstance(exponent, Number):
                 self._refuse("a function's power is a number")
-        if self._token() in _CLOSING:
+        if self._token() in CLOSING:
             node: Node = Operation(operator, (self._bracketed(),))
         else:
             node = Operation(operator, (self._symbol(),))
