@@ -332,7 +332,6 @@ def test_columns_are_named_without_what_all_names_begin_with(open_page: Open, tm
         page = open_page(saved(Model.of(robot, Looks(()), {}), tmp_path / str(i)), offline=True)
         heads = page.eval_on_selector_all("#jacobian th", "all => all.map(one => one.textContent)")
         assert [head for head in heads if head in expected] == expected
-        page.context.close()
 
 
 def test_an_animation_plays_to_its_end(open_page: Open) -> None:
@@ -391,7 +390,6 @@ def test_the_whole_robot_is_in_sight(open_page: Open, tmp_path: Path) -> None:
             }"""
         )
         assert 0.003 < colored < 0.6, name
-        page.context.close()
 
 
 def test_a_picture(browser: Any) -> None:
