@@ -219,10 +219,18 @@ COMMANDS = {
 }
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
-@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
-def test_a_command_that_is_ended(words: tuple[str, ...], number: int, mark: str, tmp_path: Path) -> None:
+ENDS = {(name, number) for name in COMMANDS for number in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL)}
+OFTEN = {("a picture", signal.SIGTERM), ("a map", signal.SIGKILL), ("a map", signal.SIGINT)}
+"""Ways to end a command; those in every run, the others in slow ones."""
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [pytest.param(*end, marks=() if end in OFTEN else pytest.mark.slow) for end in sorted(ENDS)],
+)
+def test_a_command_that_is_ended(name: str, number: int, mark: str, tmp_path: Path) -> None:
     """Browser and workers end with it; only SIGKILL may leave a temporary folder behind."""
+    words = COMMANDS[name]
     if "show" in words and not any(map(shutil.which, BROWSERS)):
         pytest.skip("there is no browser")
     asked = [sys.executable, "-m", "pinscrew", *(word.format(folder=tmp_path) for word in words)]

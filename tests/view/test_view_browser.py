@@ -32,12 +32,12 @@ Open = Callable[..., Any]
 SAME = "JSON.stringify(pinscrew.app.state.q) === JSON.stringify(value)"
 
 
-OFTEN = {"scara_rrp", "spherical_rrp", "lead_screw", "mixed", "free"}
-"""One with a slide, one with three axes at a point, one with a mimic, and two of every kind of joint."""
+OFTEN = {"spherical_rrp", "mixed", "free"}
+"""One of the courseworks', and two with mimics and every kind of joint."""
 
 
 def some(*names: str) -> list[Any]:
-    """Those of `OFTEN` in every run, the others in slow ones: each page takes Chromium two seconds."""
+    """Those of `OFTEN` in every run, the others in slow ones: each page takes Chromium a second."""
     return [pytest.param(name, marks=() if name in OFTEN else pytest.mark.slow) for name in names]
 
 

@@ -1,26 +1,15 @@
-"""``pinscrew show`` as a process."""
+"""``pinscrew show``: as a process where it stays, in this one where it ends by itself."""
 
 from __future__ import annotations
 
 import http.client
-import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from view_support import LOOPBACK, children, command, listening
 
-
-def run(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "pinscrew", "show", *words],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        env=os.environ | environment,
-    )
+from command_line import run
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
@@ -56,8 +45,8 @@ def test_without_a_browser_the_address_is_printed() -> None:
 
 def test_the_page_as_a_file(tmp_path: Path) -> None:
     file = tmp_path / "arm.html"
-    done = run("two_joint", "--qd", "1,0.5", "--tip", "B", "--draw", "screws,circles", "--html", str(file))
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    done = run("show", "two_joint", "--qd", "1,0.5", "--tip", "B", "--draw", "screws,circles", "--html", str(file))
+    assert (done.status, done.out, done.err) == (0, "", "")
     text = file.read_text(encoding="utf-8")
     assert '"qd":[1.0,0.5]' in text
     assert '"draw":["links","screws","circles"]' in text
@@ -66,7 +55,7 @@ def test_the_page_as_a_file(tmp_path: Path) -> None:
 
 def test_velocities_by_name(tmp_path: Path) -> None:
     file = tmp_path / "arm.html"
-    assert run("two_joint", "--qd", "joint2=pi/4", "--html", str(file)).returncode == 0
+    assert run("show", "two_joint", "--qd", "joint2=pi/4", "--html", str(file)).status == 0
     assert '"qd":[0.0,0.7853981633974483]' in file.read_text(encoding="utf-8")
 
 
@@ -85,29 +74,31 @@ def test_velocities_by_name(tmp_path: Path) -> None:
     ],
 )
 def test_bad_words(words: list[str], said: str) -> None:
-    done = run(*words, "--no-open")
-    assert done.returncode == 2
-    assert said in done.stderr
-    assert "Traceback" not in done.stderr
+    done = run("show", *words, "--no-open")
+    assert done.status == 2
+    assert said in done.err
+    assert "Traceback" not in done.err
 
 
-def test_a_picture_without_a_browser(tmp_path: Path) -> None:
-    done = run("scara", "--png", str(tmp_path / "a.png"), PATH=str(tmp_path))
-    assert done.returncode == 2
-    assert "none is on the PATH" in done.stderr
+def test_a_picture_without_a_browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    done = run("show", "scara", "--png", tmp_path / "a.png")
+    assert done.status == 2
+    assert "none is on the PATH" in done.err
     assert not (tmp_path / "a.png").exists()
 
 
 @pytest.mark.parametrize(
     ("script", "said"), [("echo broken >&2; exit 1", "made no picture (broken)"), ("exit 0", "it says nothing")]
 )
-def test_a_browser_that_fails(script: str, said: str, tmp_path: Path) -> None:
+def test_a_browser_that_fails(script: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
     browser = tmp_path / "chromium"
     browser.write_text(f"#!/bin/sh\n{script}\n")
     browser.chmod(0o755)
-    done = run("scara", "--png", str(tmp_path / "a.png"), PATH=f"{tmp_path}:/bin:/usr/bin")
-    assert done.returncode == 2
-    assert said in done.stderr
+    done = run("show", "scara", "--png", tmp_path / "a.png")
+    assert done.status == 2
+    assert said in done.err
 
 
 def test_a_mesh_outside_is_refused(tmp_path: Path) -> None:
@@ -116,9 +107,9 @@ def test_a_mesh_outside_is_refused(tmp_path: Path) -> None:
     mesh = '<visual><geometry><mesh filename="../secret.stl"/></geometry></visual>'
     file.write_text(f'<robot name="r"><link name="base">{mesh}</link></robot>')
     (tmp_path / "secret.stl").write_text("solid s\nendsolid s\n")
-    done = run(str(file), "--html", str(tmp_path / "a.html"))
-    assert done.returncode == 2
-    assert "outside" in done.stderr
+    done = run("show", file, "--html", tmp_path / "a.html")
+    assert done.status == 2
+    assert "outside" in done.err
     assert not (tmp_path / "a.html").exists()
 
 
@@ -126,7 +117,7 @@ def test_a_missing_mesh_is_warned_of_once(tmp_path: Path) -> None:
     file = tmp_path / "r.urdf"
     mesh = '<visual><geometry><mesh filename="gone.stl"/></geometry></visual>'
     file.write_text(f'<robot name="r"><link name="base">{mesh}{mesh}</link></robot>')
-    done = run(str(file), "--html", str(tmp_path / "a.html"))
-    assert done.returncode == 0
-    assert done.stderr.count("warning") == 1
-    assert "gone.stl" in done.stderr
+    done = run("show", file, "--html", tmp_path / "a.html")
+    assert done.status == 0
+    assert done.err.count("warning") == 1
+    assert "gone.stl" in done.err
