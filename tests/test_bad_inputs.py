@@ -121,7 +121,23 @@ def in_a_child(case: Case, server: limited.Server, folder: Path) -> None:
     assert case.line is None or f":{case.line}: " in message
 
 
-@pytest.mark.parametrize("case", LIMITS, ids=name_of)
+LIKE_OTHERS: Final = {
+    "21 MB",
+    "five million elements",
+    "${str([[0]*10**5]*10**5)}",
+    "${xacro.tokenize('aaaaaaaaaaaaaaaaaaaaaaaa}",
+    "catastrophic parameters",
+    "xacro of 240 000 elements",
+    "YAML of 10 MB",
+}
+"""Files that run into a limit as another does in every run; each takes a second and more."""
+
+
+@pytest.mark.parametrize(
+    "case",
+    [pytest.param(case, marks=pytest.mark.slow if case.name in LIKE_OTHERS else ()) for case in LIMITS],
+    ids=name_of,
+)
 def test_limits(case: Case, server: limited.Server, tmp_path: Path) -> None:
     in_a_child(case, server, tmp_path)
 
