@@ -12,8 +12,9 @@ import pinscrew as ps
 import urdfs
 from broken import ROBOT, Altered, edited, pair
 from pinscrew.description.catalogue import bundled
+from pinscrew.engines.answers import Answers
 from pinscrew.ground.errors import InputError, UnknownNameError
-from pinscrew.ground.typing import FloatArray
+from pinscrew.ground.typing import KINDS, FloatArray
 from pinscrew.verification import comparison, differences
 from pinscrew.verification.configurations import (
     FAR_ANGLE,
@@ -392,3 +393,17 @@ def test_very_many_samples_are_asked_of_the_compiled_engine_too(monkeypatch: pyt
     wrong = ps.verify(robot, MANY)
     assert [check.name for check in wrong.failed] == ["body Jacobian, compiled"]
     assert wrong.failed[0].place.frame == "tool"
+
+
+@pytest.mark.parametrize(("fastest", "divisors"), [([1.0], (1.0, 1.0)), ([1.0, 1.0], (1.0, 1.0)), ([4.0], (4.0, 16.0))])
+def test_errors_are_divided_by_how_fast_joints_move(fastest: list[float], divisors: tuple[float, float]) -> None:
+    """Jacobians by the speed, derivatives by its square: no joint that moves with its coordinate is let off."""
+    n = len(fastest)
+    right, wrong = np.zeros((1, 1, 6, n)), np.zeros((1, 1, 6, n))
+    wrong[0, 0, 5, 0] = 1.0
+    a, b = (Answers(np.eye(4)[None, None], dict.fromkeys(KINDS, J), dict.fromkeys(KINDS, J)) for J in (right, wrong))
+    checks = comparison.compare_answers(1.0)
+    comparison.see_answers(checks, a, b, np.ones(1), np.array(fastest), 0)
+    for kind in KINDS:
+        assert checks[f"{kind} Jacobian"].error == 1.0 / divisors[0]
+        assert checks[f"{kind} Jacobian derivative"].error == 1.0 / divisors[1]
