@@ -301,7 +301,7 @@ BAD: dict[str, tuple[dict[str, Any], str, str]] = {
     "q0 NaN": (wrong(q0=[0.0, np.nan, 0.0]), "not-finite", "q holds nan"),
     "rates long": (wrong(qd=lambda _: [0.0] * 4), "shape", "at t = 0 s have shape (4,); expected (3,): joint1"),
     "rates NaN": (wrong(qd=lambda t: [0.0, 0.0, np.nan if t > 0.5 else 0.0]), "not-finite", "at t = 0.6 s hold NaN"),
-    "rates text": (wrong(qd=lambda _: "abc"), "not-numbers", "the rates at t = 0 s are no numbers"),
+    "rates text": (wrong(qd=lambda _: "abc"), "not-numbers", "what the rates are at t = 0 s is no array of numbers"),
     "rates list": (wrong(qd=[0.0, 0.0, 0.0]), "profile-format", "give a Profile or a function of the time"),
     "frame": (wrong(frame="tol"), "unknown-frame", "no frame 'tol'"),
     "beyond a profile": (

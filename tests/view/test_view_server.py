@@ -8,6 +8,7 @@ import http.client
 import json
 import os
 import socket
+import struct
 import threading
 import time
 from collections.abc import Iterator
@@ -265,3 +266,57 @@ def test_a_file_that_cannot_be_written(view: View, tmp_path: Any) -> None:
     with pytest.raises(ps.PinscrewError) as caught:
         view.save_html(tmp_path / "nowhere" / "a.html")
     assert caught.value.code == "unwritable"
+
+
+SAID = {
+    "no JSON": "{",
+    "a number": "7",
+    "10⁴ lists in each other": "[" * 10_000 + "]" * 10_000,
+    "10⁴ objects in each other": '{"q":' * 10_000 + "1" + "}" * 10_000,
+    "an integer of 400 digits": '{"type":"state","q":[1' + "0" * 400 + ",0,0]}",
+    "an integer of 5000 digits": '{"type":"state","q":[1' + "0" * 5000 + ",0,0]}",
+    "no number": '{"type":"state","q":[NaN,0,0],"qd":[Infinity,0,0]}',
+    "lists for names": '{"type":"state","q":{"a":1},"tip":["tool"],"kind":[],"draw":[[],{}]}',
+    "half a surrogate": '{"type":"state","tip":"\\ud800"}',
+}
+
+
+@pytest.mark.parametrize("text", SAID.values(), ids=SAID)
+def test_what_no_page_of_ours_says(view: View, text: str, caplog: pytest.LogCaptureFixture) -> None:
+    """It is not heeded; who said it stays connected, and so do the others."""
+    page, other = Page(view), Page(view)
+    for each in (page, other):
+        each.hear("hello")
+    page.say(text)
+    page.say(json.dumps({"type": "state", "q": [0.5, 0.0, 0.0]}))
+    while other.hear("state")["q"] != [0.5, 0.0, 0.0]:
+        pass
+    view.q = [0.25, 0.0, 0.0]
+    assert page.hear("state")["q"] == [0.25, 0.0, 0.0]
+    assert caplog.records == []
+    for each in (page, other):
+        each.close()
+
+
+def test_pages_that_vanish_while_another_sends(view: View, caplog: pytest.LogCaptureFixture) -> None:
+    """With a reset in the middle of what is sent to them, or with a word of farewell: it costs the sender nothing."""
+    sender = Page(view)
+    sender.hear("hello")
+    for k in range(40):
+        gone = [Page(view) for _ in range(3)]
+        for page in gone:
+            page.hear("hello")
+            page.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        for i in range(20):
+            sender.say(json.dumps({"type": "state", "q": [0.01 * k, 0.001 * i, 0.0]}))
+            if i == 3:
+                gone[0].close()
+            if i == 10:
+                gone[1].socket.sendall(b"\x88\x80\0\0\0\0")  # it closes, and has not gone yet
+        view.q = [1.0, 0.01 * k, 0.0]
+        assert sender.hear("state")["q"] == [1.0, 0.01 * k, 0.0]
+        for page in gone[1:]:
+            page.close()
+    gc.collect()
+    assert caplog.records == []
+    sender.close()

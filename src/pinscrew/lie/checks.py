@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 
@@ -28,15 +29,7 @@ below anything that is wrong on purpose or by mistake."""
 def read(value: ArrayLike, trailing: tuple[int, ...], where: str, name: str) -> FloatArray:
     """The value as float64, refused unless its last axes are the given ones."""
     expected = f"expected (..., {', '.join(map(str, trailing))})"
-    try:
-        complex_ = np.iscomplexobj(value)  # numpy would drop imaginary parts with a mere warning
-        array = np.asarray(value, dtype=None if complex_ else np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError(
-            "not-numbers", f"{name} is no array of numbers: {error}", where=where, remedy=expected
-        ) from None
-    if complex_:
-        raise InputError("not-numbers", f"{name} is complex", where=where, remedy="expected real numbers")
+    array = numbers(value, name, where, expected)
     if array.shape[-len(trailing) :] != trailing:
         raise InputError("shape", f"{name} has shape {array.shape}", where=where, remedy=expected)
     return array

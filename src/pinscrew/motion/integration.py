@@ -11,6 +11,7 @@ import numpy as np
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.poe import PoE
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
@@ -167,7 +168,7 @@ def _few(count: float, where: str) -> None:
 def _number(value: float, name: str, where: str) -> float:
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
         raise InputError("not-finite", f"{name} is {value!r}", where=where, remedy="expected a finite time in s")
@@ -205,11 +206,7 @@ def _rates(robot: Robot, qd: GivenRates) -> Callable[[FloatArray], FloatArray]:
 
 
 def _one(robot: Robot, value: ArrayLike, t: float) -> FloatArray:
-    try:
-        rates = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        what = f"the rates at t = {t:g} s are no numbers ({error})"
-        raise InputError("not-numbers", what, where=robot.name) from None
+    rates = numbers(value, f"what the rates are at t = {t:g} s", robot.name)
     if rates.shape != (robot.nv,):
         what = f"the rates at t = {t:g} s have shape {rates.shape}"
         remedy = f"expected ({robot.nv},): {', '.join(robot.velocity_names) or 'the robot has no velocities'}"

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from pinscrew.engines.base import Engine
 from pinscrew.engines.pair import pair_of
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.lie import se3, so3
@@ -248,7 +249,7 @@ def _asked(
     require_bottom_row(T, "ik", "T_base_tip")
     q = robot.neutral if q0 is None else read(q0, (robot.nq,), "ik", "q0")
     require_finite(q, 1, "ik", "q0")
-    bounds = robot.limits if limits is None else np.asarray(limits, dtype=np.float64)
+    bounds = robot.limits if limits is None else numbers(limits, "limits", robot.name)
     within = np.clip(q, *bounds.T)
     if q0 is not None and (np.abs(within - q) > TOLERANCE).any():
         i = int(np.argwhere(np.abs(within - q) > TOLERANCE)[0][-1])

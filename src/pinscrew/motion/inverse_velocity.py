@@ -8,6 +8,7 @@ from typing import Final, Literal, TypeAlias, get_args
 import numpy as np
 import numpy.typing as npt
 
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.robot.robot import Robot
@@ -233,10 +234,7 @@ def _apply(A: FloatArray, x: FloatArray) -> FloatArray:
 
 
 def _read(values: ArrayLike, name: str, axes: int) -> FloatArray:
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError("not-numbers", f"{name} is no array of numbers ({error})", where=_WHERE) from None
+    array = numbers(values, name, _WHERE)
     if array.ndim < axes:
         what = f"{name} has shape {array.shape}"
         raise InputError("shape", what, where=_WHERE, remedy=f"expected {axes} axes or more")
@@ -264,9 +262,10 @@ def _weights(values: ArrayLike | None, name: str, n: int, *, zero: bool = True) 
 
 def _bounds(bounds: tuple[ArrayLike, ArrayLike], n: int) -> tuple[FloatArray, FloatArray]:
     try:
-        lower, upper = (np.asarray(bound, dtype=np.float64) for bound in bounds)
-    except (TypeError, ValueError) as error:
-        raise InputError("bounds", f"bounds are no two arrays of numbers ({error})", where=_WHERE) from None
+        low, high = bounds
+    except (TypeError, ValueError):
+        raise InputError("bounds", "bounds are no two arrays", where=_WHERE, remedy="give lower, upper") from None
+    lower, upper = numbers(low, "the lower bound", _WHERE), numbers(high, "the upper bound", _WHERE)
     if lower.shape[-1:] != (n,) or upper.shape[-1:] != (n,):
         what = f"bounds have shapes {lower.shape} and {upper.shape}"
         raise InputError("shape", what, where=_WHERE, remedy=f"expected (..., {n}) twice")

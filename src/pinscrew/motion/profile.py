@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError, UnknownNameError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion import profile_files
@@ -97,10 +98,7 @@ class Profile:
         Raises:
             InputError: if a time is outside the profile, or a rate not finite there.
         """
-        try:
-            times = np.asarray(t, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError("not-numbers", f"t is no array of numbers ({error})", where=self.source) from None
+        times = numbers(t, "t", self.source)
         outside = ~((times >= self.start) & (times <= self.end))
         if outside.any():
             what = f"there are no rates at t = {times[outside].flat[0]:g} s"

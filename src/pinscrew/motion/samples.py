@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.motion.rates import Rates
@@ -23,10 +24,7 @@ class Samples(Rates):
     def __init__(self, names: Sequence[str], t: ArrayLike, rates: ArrayLike, between: Between, source: str) -> None:
         """See `Profile.table`."""
         check_between(between)
-        try:
-            times, values = np.array(t, dtype=np.float64), np.array(rates, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError("not-numbers", f"the table does not hold numbers ({error})", where=source) from None
+        times, values = numbers(t, "t", source).copy(), numbers(rates, "the table of rates", source).copy()
         if times.ndim != 1 or len(times) < 2 or values.shape != (len(times), len(names)):
             what = f"t has shape {times.shape} and rates have {values.shape}"
             remedy = f"expected (N,) and (N, {len(names)}), N at least 2, for {', '.join(names)}"

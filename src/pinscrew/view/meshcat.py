@@ -17,6 +17,7 @@ from typing import Any, Final
 import numpy as np
 
 from pinscrew.ground import files
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import KINDS, ArrayLike, FloatArray, KindLike
 from pinscrew.robot.loading import RobotLike, robot_of
@@ -47,7 +48,7 @@ class View:
         owner = weakref.ref(self)  # the server's thread must not keep a view alive that nobody holds
         self._server = Server(
             lambda: _of(owner)._page(live=True),
-            lambda: [_of(owner)._message("hello")],
+            lambda: _of(owner)._message("hello"),
             lambda said: _of(owner)._hear(said),
             port,
         )
@@ -123,7 +124,7 @@ class View:
             InputError: if the shape is another, a number is not finite, or ``fps`` is not within 0 to 240.
             ViewError: if the server has stopped.
         """
-        path = np.asarray(trajectory, dtype=np.float64)
+        path = numbers(trajectory, "the trajectory", "animate")
         if path.ndim != 2 or len(path) == 0:
             what = f"the trajectory has shape {path.shape}"
             raise InputError("shape", what, where="animate", remedy=f"expected (N, {self.model.robot.nq}), N > 0")

@@ -12,6 +12,7 @@ import numpy as np
 
 from pinscrew.description import visuals
 from pinscrew.description.packages import Packages
+from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray, KindLike, jacobian_kind
 from pinscrew.robot.manifold import quaternion_starts
@@ -83,10 +84,7 @@ def launch(url: str) -> bool:
 def vector(values: ArrayLike | None, robot: Robot, symbol: str) -> FloatArray:
     """One finite vector of the robot's coordinates or velocities, with quaternions of norm 1."""
     names = robot.coordinate_names if symbol == "q" else robot.velocity_names
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError("not-numbers", f"{symbol} is not an array of numbers ({error})", where=robot.name) from None
+    array = np.array(numbers(values, symbol, robot.name)) if values is not None else np.empty(0)
     if array.shape != (len(names),):
         remedy = f"expected ({len(names)},): {', '.join(names) or 'the robot has no coordinates'}"
         raise InputError("shape", f"{symbol} has shape {array.shape}", where=robot.name, remedy=remedy)

@@ -47,7 +47,7 @@ class Server:
     def __init__(
         self,
         page: Callable[[], str],
-        greeting: Callable[[], list[dict[str, Any]]],
+        greeting: Callable[[], dict[str, Any]],
         hear: Callable[[dict[str, Any]], dict[str, Any]],
         port: int | None = None,
     ) -> None:
@@ -122,12 +122,14 @@ class Server:
         except (RuntimeError, concurrent.futures.TimeoutError, concurrent.futures.CancelledError):
             raise gone from None
 
-    def _send(self, text: str) -> None:
+    def _send(self, text: str, but: Any = None) -> None:
+        """Send a text to every page ``but`` one. A page that has gone meanwhile is no error of who speaks."""
         from tornado.websocket import WebSocketClosedError
 
-        for page in tuple(self._pages):
+        for page in tuple(self._pages - {but}):
             try:
-                page.write_message(text)
+                # What it learns of a page that goes while it writes comes later, by the future; nobody else asks it.
+                page.write_message(text).add_done_callback(asyncio.Future.exception)
             except WebSocketClosedError:
                 self._pages.discard(page)
 
@@ -180,19 +182,17 @@ class Server:
                 return self.request.host in names and origin.removeprefix("http://") in names
 
             def open(self, *_: str) -> None:
+                greeting = json.dumps(own._greeting(), allow_nan=False)
+                self.write_message(greeting).add_done_callback(asyncio.Future.exception)
                 own._pages.add(self)
-                for message in own._greeting():
-                    self.write_message(json.dumps(message, allow_nan=False))
 
             def on_message(self, message: str | bytes) -> None:
                 try:
                     said = json.loads(message)
-                except ValueError:
+                except (ValueError, RecursionError):  # no JSON, or lists in lists in lists: no page of ours says such
                     return
                 if isinstance(said, dict):
-                    answer = json.dumps(own._hear(said), allow_nan=False)
-                    for page in own._pages - {self}:
-                        page.write_message(answer)
+                    own._send(json.dumps(own._hear(said), allow_nan=False), but=self)
 
             def on_close(self) -> None:
                 own._pages.discard(self)

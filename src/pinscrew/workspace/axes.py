@@ -90,7 +90,7 @@ def _axis(robot: Robot, index: int, given: Ranges) -> Axis:
     name, angle = robot.coordinate_names[index], not robot.mechanism.coordinates.slides[index]
     try:
         lower, upper = map(float, given.get(name, robot.limits[index]))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         what = f"the range of {name!r} is {given[name]!r}"
         raise InputError("range", what, where=robot.name, remedy="give two numbers") from None
     if name not in given and angle and not (math.isfinite(lower) and math.isfinite(upper)):
