@@ -428,3 +428,47 @@ def written(done: Done, words: tuple[str, ...]) -> str:
     """What a command with these words wrote, to a file, to standard output or, for GitHub, to standard error."""
     out = next((Path(word) for word in words if word.split("/")[-1].startswith("OUT")), None)
     return out.read_bytes().decode() if out else done.err if "--github" in words else done.out
+
+
+# ------------------------------------------------------------------------------------------------ figures
+
+FIGURES: Final = {
+    "rates": ("track", "--profile", "profile.csv", "--method", "pinv", "--plot"),
+    "positions": ("workspace", "--samples", "20", "--plot"),
+}
+
+
+@pytest.mark.parametrize("words", FIGURES.values(), ids=FIGURES)
+@pytest.mark.parametrize(
+    "titles",
+    [
+        pytest.param(pair, marks=() if i == 0 else pytest.mark.slow, id="-".join(pair))
+        for i, pair in enumerate(
+            [
+                ("unfinished formula", "script in a formula"),
+                ("TeX", "display"),
+                ("tag", "breaks of Unicode"),
+                ("interpolation", "line break"),
+                ("specials of TeX", "end of a comment"),
+            ]
+        )
+    ],
+)
+def test_figures(
+    words: tuple[str, ...], titles: tuple[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The names of robot, frame and velocities stand in the picture as they are, and nothing else is in it."""
+    monkeypatch.chdir(tmp_path)
+    names = [NAMES[title] for title in titles]
+    Path("arm.urdf").write_text(arm(names, name=names[0]))
+    with Path("profile.csv").open("w", newline="") as file:
+        csv.writer(file).writerows([["t", *names], [0, 0.1, 0.1], [0.01, 0.1, 0.1]])
+    done = run(words[0], "arm.urdf", *words[1:], "OUT.svg")
+    assert (done.status, done.err) == (0, "")
+    picture = ET.parse("OUT.svg")  # noqa: S314
+    assert {
+        element.tag for element in picture.iter() if element.tag.endswith(("}script", "}foreignObject", "}a"))
+    } == set()
+    shown = "\n".join("".join(element.itertext()) for element in picture.iter() if element.tag.endswith("}text"))
+    wanted = names if words[0] == "track" else names[-1:]
+    assert [name for name in wanted if visible(name) not in shown] == []

@@ -221,9 +221,15 @@ def latex(text: str) -> str:
 def plot(text: str) -> str:
     r"""Text in a figure of matplotlib, which sets what is between two dollars as a formula (and fails if it is none).
 
-    Source: matplotlib, "Writing mathematical expressions": ``\$`` is a dollar. Its SVG writer escapes the rest.
+    Source: matplotlib, "Writing mathematical expressions": ``\$`` is a dollar. Its SVG writer escapes the rest. What is
+    longer than `LONGEST_IN_A_PLOT` is shown by both its ends: a figure has no line breaks, and its layout no end.
     """
+    if len(text) > LONGEST_IN_A_PLOT:
+        text = f"{text[: LONGEST_IN_A_PLOT // 2]}…{text[-LONGEST_IN_A_PLOT // 2 :]}"
     return visible(text).replace("$", r"\$")
+
+
+LONGEST_IN_A_PLOT: Final = 60
 
 
 _FORMULA: Final = re.compile("'*[=+\\-@\t\r\n＝＋－＠]")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, field
@@ -17,7 +16,7 @@ from pinscrew.view.mesh_files import MeshPart
 from pinscrew.view.model import Body, Model
 from pinscrew.view.shapes import COLORS, GROUPS, Group, PlacedShape
 
-__all__ = ["Animation", "State", "document", "to_text"]
+__all__ = ["Animation", "State", "document"]
 
 Json: TypeAlias = dict[str, Any]
 
@@ -123,12 +122,6 @@ def document(model: Model, state: State, *, live: str = "", picture: tuple[int, 
         },
         "animation": None if animation is None else {"trajectory": animation.trajectory.tolist(), "fps": animation.fps},
     }
-
-
-def to_text(value: Json) -> str:
-    """The document as JSON that may stand inside a ``<script>``: no ``<`` ends the element or opens a comment."""
-    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
 def _finite(value: float) -> float | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import html
 import importlib.util
 from functools import cache
 from importlib.resources import files
@@ -12,7 +11,8 @@ from pathlib import Path
 from typing import Final
 
 from pinscrew.ground.errors import MissingExtraError
-from pinscrew.view.document import Json, to_text
+from pinscrew.ground.escaping import html, json_in_script
+from pinscrew.view.document import Json
 
 __all__ = ["page", "viewer_script"]
 
@@ -39,10 +39,10 @@ def page(document: Json, *, connect: str = "'none'") -> str:
         f"connect-src {connect}; base-uri 'none'; form-action 'none'"
     )
     values = {
-        "policy": html.escape(policy),
-        "title": html.escape(f"{document['name']} · pinscrew"),
+        "policy": html(policy),
+        "title": html(f"{document['name']} · pinscrew"),
         "style": _text("page.css"),
-        "document": to_text(document),
+        "document": json_in_script(document),
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # One pass over the template: what a value contains is never taken for a place.

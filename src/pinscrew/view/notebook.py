@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import html
-
 from pinscrew.description.visuals import Looks
 from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.escaping import html
 from pinscrew.robot.robot import Robot
 from pinscrew.view.model import Model
 from pinscrew.view.prepare import begin, page, prepare
@@ -19,7 +18,7 @@ def robot(shown: Robot) -> str:
         model = prepare(shown)
     except DescriptionError:
         model = Model.of(shown, Looks(()), {})
-    whole = html.escape(page(model, begin(model)), quote=True)
+    whole = html(page(model, begin(model)))
     style = "width: 100%; height: 640px; border: 1px solid #d5dbe3"
-    title = html.escape(shown.name, quote=True)
+    title = html(shown.name)
     return f'<iframe title="{title}" sandbox="allow-scripts" style="{style}" srcdoc="{whole}"></iframe>'

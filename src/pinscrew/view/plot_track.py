@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from pinscrew.ground.escaping import plot
 from pinscrew.ground.typing import FloatArray
 from pinscrew.motion.track import Track
 from pinscrew.robot.robot import Robot
@@ -35,7 +36,7 @@ def plot_track(track: Track) -> Figure:
     names = run.robot.velocity_names
     panels = len(names) if len(names) <= MOST_PANELS else 1
     figure = figures.figure(11.0, max(6.0, 1.7 * panels))
-    figure.suptitle(f"{run.robot.name}: {run.frame}, scheme {run.scheme}, δt = {run.dt:g} s")
+    figure.suptitle(f"{plot(run.robot.name)}: {plot(run.frame)}, scheme {run.scheme}, δt = {run.dt:g} s")
     left, right = figure.subfigures(1, 2, squeeze=False)[0]
     _rates(left.subplots(panels, 1, sharex=True, squeeze=False)[:, 0], track)
     position, rotation, manipulability = right.subplots(3, 1, sharex=True)
@@ -60,7 +61,7 @@ def _rates(panels: list[Axes], track: Track) -> None:
         panel.plot(run.t, run.qd[:, i], label="given" if first else None, **_GIVEN)
         panel.plot(run.t, track.recovered.qd[:, i], label="recovered" if first else None, **_RECOVERED)
         if len(panels) == len(run.robot.velocity_names):
-            panel.set_ylabel(f"{name}\n({_unit(run.robot, i)})", fontsize="small")
+            panel.set_ylabel(f"{plot(name)}\n({_unit(run.robot, i)})", fontsize="small")
     for panel in panels:
         panel.grid(alpha=0.3)
         low, high = panel.get_ylim()  # not so near that a constant rate shows its rounding

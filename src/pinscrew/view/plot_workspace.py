@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pinscrew.ground.errors import InputError
+from pinscrew.ground.escaping import plot
 from pinscrew.ground.typing import FloatArray
 from pinscrew.view import figures
 from pinscrew.workspace.density import density, dimensions
@@ -87,7 +88,8 @@ def plot_map(reached: ReachabilityMap, colour: str = "manipulability") -> Figure
     if colour not in shadings or np.isnan(shadings[colour].values).any():
         raise InputError("colour", f"the map has no {colour}", remedy=f"use {', '.join(MAP_COLOURS)}")
     meta = reached.metadata
-    title = f"{meta['robot']}: voxels of {meta['voxel']:g} m that {meta['frame']} reaches, {meta['samples']} samples"
+    robot, frame = plot(meta["robot"]), plot(meta["frame"])
+    title = f"{robot}: voxels of {meta['voxel']:g} m that {frame} reaches, {meta['samples']} samples"
     return _draw(reached.centres, shadings[colour], title, reached.voxel)
 
 
@@ -110,11 +112,12 @@ def plot_comparison(sweep: Sweep, others: FloatArray, reference: str) -> Figure:
     else:
         figure = figures.figure(7.0, 7.0)
         axes = figure.add_subplot(projection="3d")
+    base = plot(sweep.metadata["base"])
     sets: Sequence[tuple[FloatArray, str, dict[str, Any]]] = (
-        (points, f"frame 0 at {sweep.metadata['base']}", {"marker": "x", "c": "tab:blue", "s": 14, "linewidths": 0.8}),
+        (points, f"frame 0 at {base}", {"marker": "x", "c": "tab:blue", "s": 14, "linewidths": 0.8}),
         (
             others,
-            f"frame 0 at {reference}, brought to {sweep.metadata['base']}",
+            f"frame 0 at {plot(reference)}, brought to {base}",
             {"marker": "o", "edgecolors": "tab:orange", "facecolors": "none", "s": 34, "linewidths": 0.8},
         ),
     )
@@ -250,9 +253,10 @@ def _some(count: int) -> NDArray[np.intp]:
 
 def _title(metadata: dict[str, Any], count: int, drawn: int) -> str:
     grid = metadata.get("grid")
+    robot, frame, base = (plot(metadata[key]) for key in ("robot", "frame", "base"))
     how = f"grid of {' × '.join(map(str, grid.values()))}" if grid else f"sample of {count}"
     part = "" if drawn == count else f", {drawn} drawn"
-    return f"{metadata['robot']}: positions of {metadata['frame']} in {metadata['base']}, {how}{part}"
+    return f"{robot}: positions of {frame} in {base}, {how}{part}"
 
 
 def _shading(points: FloatArray, measures: Measures, colour: str, metadata: dict[str, Any], thinned: float) -> _Shading:
