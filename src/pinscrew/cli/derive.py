@@ -141,16 +141,24 @@ def _report(
     )
     if language is not None:
         from pinscrew.derivation.code import code
+        from pinscrew.derivation.read_back_code import read_back_code
 
         proof = derivation.prove(samples, seed)
-        return code(derivation, language, "hybrid" if kind == "geometric" else kind), proof.ok
+        kind = "hybrid" if kind == "geometric" else kind
+        text = code(derivation, language, kind)
+        if proof.ok:
+            read_back_code(derivation, text, language, kind)
+        return text, proof.ok
     return _written(derivation, derivation.prove(samples, seed), form, parts)
 
 
 def _written(derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...]) -> tuple[str, bool]:
     from pinscrew.derivation import reports
 
-    return reports.write(reports.report(derivation, proof, parts), form), proof.ok
+    whole = reports.report(derivation, proof, parts)
+    if not proof.ok:  # what is wrong already is not held against the engines once more
+        return reports.write(whole, form), False
+    return reports.written(derivation, whole, form), True
 
 
 def _errata(words: tuple[str, ...], form: str) -> tuple[str, bool]:

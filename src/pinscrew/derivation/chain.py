@@ -110,6 +110,7 @@ def compose(
     by_name = {joint.name: joint for joint in geometry}
     path = [by_name[name] for name in (*back, *on_path)]
     numbers = [x for joint in path for M in (joint.R, joint.p, joint.axis) for x in M] + [j.offset for j in path]
+    numbers += [x for j in path if j.type not in ("fixed", "prismatic") and j.offset for x in _about(j.axis, j.offset)]
     exact = not any(sp.sympify(x).has(sp.Float) for x in numbers)
     moving = [joint for joint in path if joint.type != "fixed"]
     sliding = [variables[joint.name].symbol for joint in moving if joint.type == "prismatic"]

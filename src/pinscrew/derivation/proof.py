@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -16,11 +17,12 @@ from pinscrew.derivation.numeric import evaluate
 from pinscrew.description import urdf
 from pinscrew.engines.base import Answers
 from pinscrew.ground.counts import whole
+from pinscrew.ground.errors import PinscrewWarning
 from pinscrew.ground.typing import KINDS, FloatArray, JacobianKind
 from pinscrew.lie import se3
 from pinscrew.robot.robot import Robot
 
-__all__ = ["TOLERANCE", "Compared", "Proof", "prove"]
+__all__ = ["TOLERANCE", "Compared", "Proof", "prove", "relative", "variant"]
 
 TOLERANCE: Final = 1e-12
 """Of differences in which metres are divided by max(1, size), as in `verify`."""
@@ -171,7 +173,7 @@ def _answers(engine: type, d: ClosedForms, robots: list[Robot], q: FloatArray, q
         full += robot.neutral
         places = [robot.coordinate_names.index(v.joint) for v in d.coordinates]
         full[:, places], rates[:, columns] = q[start:end], qd[start:end]
-        pose, jacobians = _relative(engine(robot).answers(full, rates, [d.tip, d.reference]))
+        pose, jacobians = relative(engine(robot).answers(full, rates, [d.tip, d.reference]))
         part = {"pose g": pose, "inverse g⁻¹": se3.inverse(pose)}
         for kind, full_jacobian in jacobians.items():
             J = full_jacobian[:, :, columns]
@@ -181,7 +183,7 @@ def _answers(engine: type, d: ClosedForms, robots: list[Robot], q: FloatArray, q
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def _relative(answers: Answers) -> tuple[FloatArray, dict[JacobianKind, FloatArray]]:
+def relative(answers: Answers) -> tuple[FloatArray, dict[JacobianKind, FloatArray]]:
     """The pose (N, 4, 4) of the first frame in the second, and the Jacobians (N, 6, nv) of this motion.
 
     With g_AC = g_AB g_BC the body velocities are V_AC = Ad(g_BC⁻¹) V_AB + V_BC (MLS, proposition 2.15): B is here the
@@ -193,10 +195,10 @@ def _relative(answers: Answers) -> tuple[FloatArray, dict[JacobianKind, FloatArr
     return pose, {"spatial": se3.adjoint(pose) @ body, "body": body, "hybrid": turned}
 
 
-def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float]) -> Robot:
+def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float], *, follow: bool = True) -> Robot:
     """The joints that matter as a robot with these lengths, its rotations and axes the exact ones.
 
-    Joints that are only followed hang on the base.
+    Joints that are only followed hang on the base. Unless they ``follow``, joints move on their own.
     """
     d = derivation
     base = d.robot.base
@@ -217,10 +219,13 @@ def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float]) -> Robo
             continue
         ET.SubElement(element, "axis", xyz=" ".join(_number(x, lengths) for x in joint.axis))
         ET.SubElement(element, "limit", lower="-100", upper="100", effort="1", velocity="1")
-        if joint.master != joint.name:
+        if follow and joint.master != joint.name:
             multiplier, offset = _number(joint.multiplier, lengths), _number(joint.offset, lengths)
             ET.SubElement(element, "mimic", joint=joint.master, multiplier=multiplier, offset=offset)
-    return Robot.from_description(urdf.parse(ET.tostring(root, encoding="unicode"), "variant"), tip=d.tip)
+    with warnings.catch_warnings():  # whatever is to be said of the file was said when that was read
+        warnings.simplefilter("ignore", PinscrewWarning)
+        description = urdf.parse(ET.tostring(root, encoding="unicode"), "variant")
+    return Robot.from_description(description, tip=d.tip)
 
 
 def _number(expression: sp.Expr, lengths: Mapping[sp.Symbol, float]) -> str:

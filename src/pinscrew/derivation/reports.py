@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import Final
 
 from pinscrew.derivation import formats, page
@@ -10,11 +11,12 @@ from pinscrew.derivation.blocks import Block, Paragraph, Report, Section, Table,
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
+from pinscrew.derivation.read_back import read_back
 from pinscrew.derivation.sections import sections
 from pinscrew.derivation.typeset import Typesetter
 from pinscrew.ground.errors import InputError
 
-__all__ = ["report", "write"]
+__all__ = ["report", "write", "written"]
 
 
 def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extra: Sequence[Section] = ()) -> Report:
@@ -99,6 +101,31 @@ def _proof(proof: Proof) -> Section:
 def _code(d: Derivation) -> str:
     arguments = "".join(f", {name}={value!r}" for name, value in d.robot.description.arguments.items())
     return f"import pinscrew as ps\n\nrobot = ps.load({d.robot.name!r}{arguments})\nd = ps.derive(robot, {d.tip!r})"
+
+
+_COUNTED: Final = "MATRICESREADBACK"
+"""Stands for their number in the text until that has been read."""
+
+
+def written(derivation: Derivation, whole: Report, form: str) -> str:
+    """A report as text that was read back, and says so: see `read_back`.
+
+    Args:
+        derivation: what the report is of.
+        whole: from `report`.
+        form: as for `write`.
+
+    Raises:
+        ReadBackError: the text does not say what was proved: a mistake in pinscrew, and no text is given.
+        InputError, MissingExtraError: as for `write`.
+    """
+    said = Paragraph(
+        f"This text was read back: {_COUNTED} matrices were parsed from it by a reader that knows nothing of what "
+        "wrote them, evaluated at random values, and agree with PoE and Pinocchio."
+    )
+    text = write(replace(whole, sections=(*whole.sections, Section("", "read-back", "Read back", (said,)))), form)
+    found = read_back(derivation, text, form)
+    return text.replace(_COUNTED, str(found.matrices))
 
 
 def write(report: Report, form: str) -> str:

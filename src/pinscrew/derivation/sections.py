@@ -142,7 +142,12 @@ class _Writer:
                 h = sp.simplify(w.dot(v) / w.dot(w))
                 text += f" of pitch $h = {self.set(h)}$ (m/rad)"
             yield Paragraph(text)
-            yield Formula((self.column(column),))
+            yield Formula(
+                (
+                    f"{self.n.spatial}(0) e_{{{k + 1}}}" if len(self.d.coordinates) > 1 else f"{self.n.spatial}(0)",
+                    self.column(column),
+                )
+            )
 
     def exponentials(self) -> Iterable[Block]:
         hat = self.n.hat.format(r"\omega")

@@ -90,8 +90,9 @@ class Typesetter:
             base = base if binds == _UNIT and not e.base.is_Pow else _bracketed(base)
             return f"{base}^{{{self(e.exp)}}}", _UNIT
         if isinstance(e, (sp.cos, sp.sin)):
-            argument = self(e.args[0])
-            return rf"\{e.func.__name__} " + (_bracketed(argument) if e.args[0].is_Add else argument), _UNIT
+            argument, binds = self._set(e.args[0])
+            single = e.args[0].is_Symbol or (binds == _UNIT and argument.startswith(r"\frac"))
+            return rf"\{e.func.__name__} " + (argument if single else _bracketed(argument)), _UNIT
         return str(sp.latex(e)), _PRODUCT
 
     def _sum(self, e: sp.Expr) -> str:

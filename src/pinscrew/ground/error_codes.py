@@ -93,6 +93,7 @@ ERRORS: Final[dict[str, str]] = {
     "derive-size": "More than 8 moving joints lead to a frame: too many for closed forms to be of use.",
     "derive-growth": "Axes at odd angles make closed forms grow beyond 500 products of sines and cosines in one entry.",
     "derive-joint": "A floating or planar joint leads to a frame, and closed forms are asked for.",
+    "read-back": "A report, once written, does not say what was proved: a mistake in pinscrew, please report it.",
     "symbol-collision": "A symbol for a length has the name of another, of a joint's value, or of a sine or cosine.",
     "no-errata": "No printed coursework belongs to this robot.",
     "unwritable": "An output file can't be written.",

@@ -1,7 +1,7 @@
 r"""Formulas in LaTeX: sums, products without a sign between, fractions, roots, powers, cosines and sines, matrices.
 
-A function takes what is in parentheses or one symbol: ``\cos\theta_1 L`` is L cos θ1, and ``\cos 2 x`` is refused, for
-it is read in two ways. What cannot be read is refused with its place, never guessed.
+A function takes what is in parentheses, a fraction or one symbol: ``\cos\theta_1 L`` is L cos θ1, and ``\cos 2 x`` is
+refused, for it is read in two ways. What cannot be read is refused with its place, never guessed.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ _GREEK: Final = {
     r"\rho",
 }
 _FUNCTIONS: Final[dict[str, Operator]] = {r"\cos": "cos", r"\sin": "sin", r"\tan": "tan"}
+_FRACTIONS: Final = {r"\frac", r"\tfrac", r"\dfrac"}
 _NAMES: Final = {r"\mathrm", r"\text", r"\operatorname", r"\mathit"}
 _MATRIX: Final = re.compile(
     r"\s*\\begin\{([bpvBV]?matrix|smallmatrix)\}(?P<inside>(?:(?!\\begin).)*?)\\end\{\1\}\s*", re.DOTALL
@@ -118,7 +119,7 @@ class _Reader(TokenReader):
 
     def _starts(self) -> bool:
         token = self._token()
-        known = _GREEK | set(_FUNCTIONS) | _NAMES | {r"\frac", r"\tfrac", r"\dfrac", r"\sqrt", r"\dot", r"\pi"}
+        known = _GREEK | set(_FUNCTIONS) | _NAMES | _FRACTIONS | {r"\sqrt", r"\dot", r"\pi"}
         return token in known or token in CLOSING or bool(re.match(r"[A-Za-z\d.]", token))
 
     def _power(self) -> Node:
@@ -150,7 +151,7 @@ class _Reader(TokenReader):
             return Number(float(self._next()))
         if ahead in CLOSING:
             return self._bracketed()
-        if ahead in (r"\frac", r"\tfrac", r"\dfrac"):
+        if ahead in _FRACTIONS:
             self._at += 1
             return Operation("divide", (self._argument(), self._argument()))
         if ahead in (r"\sqrt", r"\pi"):
@@ -165,7 +166,7 @@ class _Reader(TokenReader):
         return Operation("sqrt", (self._bracketed(),))
 
     def _function(self) -> Node:
-        r"""``\cos`` of what is in parentheses, or of the one symbol after it; ``\cos^2 x`` is (cos x)²."""
+        r"""``\cos`` of what is in parentheses, or of the one symbol or fraction after it; ``\cos^2 x`` is (cos x)²."""
         operator = _FUNCTIONS[self._next()]
         exponent: Node | None = None
         if self._token() == "^":
@@ -175,6 +176,8 @@ class _Reader(TokenReader):
                 self._refuse("a function's power is a number")
         if self._token() in CLOSING:
             node: Node = Operation(operator, (self._bracketed(),))
+        elif self._token() in _FRACTIONS:
+            node = Operation(operator, (self._unit(),))
         else:
             node = Operation(operator, (self._symbol(),))
         if self._token() == "^":
@@ -213,12 +216,19 @@ class _Reader(TokenReader):
         return "_" + self._next()
 
     def _raw(self) -> str:
-        """The letters and digits in braces, as they stand."""
+        """The letters, digits and signs in braces, as they stand, names in them without braces of their own."""
         self._expect("{")
         name = ""
         while self._token() not in ("}", ""):
-            if not re.fullmatch(r"\\?_|\\?[A-Za-z]+|\d+|,", self._token()):
+            if self._token() in _NAMES:
+                self._at += 1
+                self._deeper()
+                name += self._raw()
+                self._depth -= 1
+                continue
+            if not re.fullmatch(r"\\?_|\\?[A-Za-z]+|\d+|[,+-]", self._token()):
                 self._refuse(f"{self._token()!r} is not expected in a name or an index")
-            name += self._next().lstrip("\\")
+            name += {r"\cdot": "*"}.get(self._token(), self._token().lstrip("\\"))
+            self._at += 1
         self._expect("}")
         return name or self._refuse("a name or an index is empty")

@@ -1,0 +1,273 @@
+"""Names of matrices in formulas, as two books have them, and what an engine says of each.
+
+It is read from the text alone: nothing here asks how it was written.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from pinscrew.derivation.truth import Truth
+from pinscrew.ground.errors import InputError
+from pinscrew.ground.typing import FloatArray
+from pinscrew.lie import se3
+from pinscrew.mathtext import Symbol, read_latex
+from pinscrew.mathtext.equations import Grid, Side
+from pinscrew.mathtext.tokens import CLOSING
+
+__all__ = ["Names", "NotUnderstoodError"]
+
+Token: TypeAlias = str | Grid
+
+_TOKEN: Final = re.compile(r"\\[A-Za-z]+|\\.|\d+|\S")
+_SIZES: Final = {r"\left", r"\right", r"\,", r"\;", r"\ "}
+_KINDS: Final[dict[str, str]] = {"s": "spatial", "b": "body", "h": "hybrid"}
+_POWER: Final = re.compile(r"(?:\\hat\{\\xi\}_\{?(\d+)\}?|\[\\mathcal\{S\}_\{?(\d+)\}?\])(.+)")
+_SWAPPED: Final = [3, 4, 5, 0, 1, 2]
+
+
+class NotUnderstoodError(Exception):
+    """A side of an equation has something in it that has no value here; it is passed over."""
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """What the names in the formulas of one report stand for.
+
+    Attributes:
+        truth: an engine's answers, with twists (v, ω).
+        angular_first: whether the book has (ω, v).
+        joints: the names of the values of the joints that move the frame, without underscores.
+        rates: of the coordinates, shape (N, m).
+        grid: the value of a matrix of entries, or None where it is a general form.
+        scalar: the value (N,) of a symbol, such as a joint's rate; raises `NotUnderstoodError`.
+        points: points q_i of axes that were read before.
+    """
+
+    truth: Truth
+    angular_first: bool
+    joints: tuple[str, ...]
+    rates: FloatArray
+    grid: Callable[[Grid], FloatArray | None]
+    scalar: Callable[[str], FloatArray]
+    points: Mapping[int, FloatArray]
+
+    def value(self, side: Side) -> tuple[FloatArray, list[FloatArray]]:
+        """The value of a side of an equation, shape (N, rows, columns), and those of its factors if it is a product.
+
+        Raises:
+            NotUnderstoodError: something in it is no such name.
+        """
+        tokens: list[Token] = []
+        for piece in side:
+            if isinstance(piece, Grid):
+                tokens.append(piece)
+            else:
+                tokens += [token for token in _TOKEN.findall(piece) if token not in _SIZES]
+        read = _Side(tokens, self)
+        value = read.whole()
+        return value, read.factors
+
+    def twist(self, matrix: FloatArray) -> FloatArray:
+        """Twists or a Jacobian with its rows in the book's order."""
+        return matrix[:, _SWAPPED] if self.angular_first else matrix
+
+    def adjoint(self, pose: FloatArray) -> FloatArray:
+        """Ad of a pose in the book's order."""
+        matrix = np.asarray(se3.adjoint(pose))
+        return matrix[:, _SWAPPED][:, :, _SWAPPED] if self.angular_first else matrix
+
+    def joint(self, symbol: str) -> int:
+        """The number of the joint whose value a symbol is."""
+        try:
+            node = read_latex(symbol)
+        except InputError:
+            raise NotUnderstoodError from None
+        name = node.name.replace("_", "") if isinstance(node, Symbol) else ""
+        if name not in self.joints:
+            raise NotUnderstoodError
+        return self.joints.index(name) + 1
+
+
+class _Side:
+    """Evaluates one side by descent."""
+
+    def __init__(self, tokens: list[Token], names: Names) -> None:
+        self._tokens, self._at, self._names = tokens, 0, names
+        self.factors: list[FloatArray] = []
+
+    def whole(self) -> FloatArray:
+        found = self._sum()
+        if self._at < len(self._tokens):
+            raise NotUnderstoodError
+        return found
+
+    def _ahead(self, by: int = 0) -> Token:
+        return self._tokens[self._at + by] if self._at + by < len(self._tokens) else ""
+
+    def _sum(self) -> FloatArray:
+        total: FloatArray | None = None
+        while total is None or self._ahead() in ("+", "-"):
+            sign = self._ahead() if self._ahead() in ("+", "-") else "+"
+            self._at += self._ahead() in ("+", "-")
+            term = self._product()
+            term = -term if sign == "-" else term
+            self.factors = self.factors if total is None else []
+            total = term if total is None else total + term
+        return total
+
+    def _product(self) -> FloatArray:
+        found = self._factor()
+        self.factors = [found]
+        while self._ahead() not in ("", "+", "-", ")", "]"):
+            crossed = self._ahead() == r"\times"
+            self._at += crossed
+            factor = self._factor()
+            self.factors.append(factor)
+            if crossed and found.shape[1:] == factor.shape[1:] == (3, 1):
+                found = np.cross(found, factor, axis=1)
+            elif not crossed and (1, 1) in (found.shape[1:], factor.shape[1:]):
+                found = found * factor
+            elif crossed or found.shape[2] != factor.shape[1]:
+                raise InputError("formula", f"sizes {found.shape[1:]} and {factor.shape[1:]} do not fit in a product")
+            else:
+                found = found @ factor
+        return found
+
+    def _group(self) -> list[Token]:
+        """What is in braces, or the one token there."""
+        opening = self._ahead()
+        self._at += 1
+        if opening == "":
+            raise NotUnderstoodError
+        if opening not in CLOSING:
+            return [opening]
+        depth, inside = 1, []
+        while depth:
+            token = self._ahead()
+            if token == "":
+                raise NotUnderstoodError
+            self._at += 1
+            depth += (token in CLOSING) - (token in CLOSING.values())
+            inside.append(token)
+        return inside[:-1]
+
+    def _factor(self) -> FloatArray:
+        ahead = self._ahead()
+        if isinstance(ahead, Grid):
+            self._at += 1
+            found = self._names.grid(ahead)
+            if found is None:
+                raise NotUnderstoodError
+            return found
+        if ahead == "(":
+            return _Side(self._group(), self._names).whole()
+        base = self._base()
+        scripts = {"_": "", "^": ""}
+        while self._ahead() in ("_", "^", "'"):
+            which = self._ahead()
+            self._at += 1
+            if which == "'":
+                scripts["^"] = "'"
+                continue
+            inner = self._group()
+            if base == r"\mathrm{Ad}" and which == "_":
+                return self._adjoint(inner, scripts["^"])
+            scripts[str(which)] += "".join(map(str, inner))
+        return self._named(base, scripts["_"], scripts["^"])
+
+    def _base(self) -> str:
+        ahead = str(self._ahead())
+        if ahead in (r"\hat", r"\dot", r"\mathrm", r"\mathcal", r"\frac"):
+            self._at += 1
+            text = ahead + "{" + "".join(map(str, self._group())) + "}"
+            return text + "{" + " ".join(map(str, self._group())) + "}" if ahead == r"\frac" else text
+        if ahead == "[":
+            return "[" + "".join(map(str, self._group())) + "]"
+        self._at += 1
+        return ahead
+
+    def _adjoint(self, inner: list[Token], power: str) -> FloatArray:
+        pose = self._names.truth.pose if "".join(map(str, inner)) in "gT" else _Side(inner, self._names).whole()
+        if self._ahead() == "^":
+            self._at += 1
+            power = "".join(map(str, self._group()))
+        return self._names.adjoint(pose if power == "" else np.asarray(se3.inverse(pose)))
+
+    def _argument(self) -> str:
+        """What stands in parentheses after a name: 0 or θ."""
+        return "".join(map(str, self._group())) if self._ahead() == "(" else ""
+
+    def _named(self, base: str, sub: str, sup: str) -> FloatArray:
+        truth, at = self._names.truth, self._at
+        found: FloatArray | None = None
+        if base in ("g", "T") and not sub:
+            argument = self._argument()
+            found = {("0", ""): truth.home, ("", "-1"): np.asarray(se3.inverse(truth.pose))}.get((argument, sup))
+            found = truth.pose if (argument, sup) in ((r"\theta", ""), ("", "")) else found
+        elif base == "M" and not sub + sup:
+            found = truth.home
+        elif base in (r"\dot{g}", r"\dot{T}") and not sub + sup:
+            found = truth.rate
+        elif base in ("J", "V", r"\mathcal{V}", r"\hat{V}") or base.startswith(r"[\mathcal{V}_"):
+            found = self._velocity(base, sub, sup)
+        elif base == "e":
+            found = self._exponential(sub, sup)
+        elif base in (r"\xi", r"\mathcal{S}") and sub.isdecimal():
+            i = int(sub)
+            columns = {"'": "spatial", r"\dagger": "body"}
+            found = self._names.twist(truth.column(columns[sup], i) if sup in columns else truth.twist(i))
+        elif base in ("v", r"\omega") and sub.isdecimal() and not sup:
+            found = truth.twist(int(sub))[:, :3] if base == "v" else truth.twist(int(sub))[:, 3:]
+        elif base == "q" and sub.isdecimal():
+            found = self._names.points.get(int(sub))
+        elif base == r"\dot{\theta}" and not sub + sup:
+            found = self._names.rates[:, :, None]
+        elif partial := re.fullmatch(r"\\frac\{\\partial[gT]\}\{\\partial (.*)\}", base):
+            found = truth.partial_rate(self._names.joint(partial[1].replace(" ", "")))
+        elif not sup:
+            found = self._names.scalar(f"{base}_{{{sub}}}" if sub else base)[:, None, None]
+        if found is None:
+            self._at = at
+            raise NotUnderstoodError
+        return found
+
+    def _velocity(self, base: str, sub: str, sup: str) -> FloatArray | None:  # noqa: PLR0911 (one for each name)
+        """Jacobians, with their columns, and velocities, with their matrices."""
+        truth, twist = self._names.truth, self._names.twist
+        if base.startswith("["):
+            return self._hat(_KINDS.get(base.removeprefix(r"[\mathcal{V}_").strip("{}]"), ""))
+        letter = sub + sup
+        kind = _KINDS.get(letter[:1], "")
+        if not kind:
+            return None
+        if base == "J" and letter[1:].isdecimal():
+            return twist(truth.column(kind, int(letter[1:])))
+        if len(letter) > 1:
+            return None
+        if base == "J" and self._argument() == "0":
+            return twist(truth.jacobian_at_home()) if kind == "spatial" else None
+        if base == r"\hat{V}":
+            return self._hat(kind)
+        return twist(truth.jacobian(kind) if base == "J" else truth.velocity(kind))
+
+    def _hat(self, kind: str) -> FloatArray | None:
+        return np.asarray(se3.hat(self._names.truth.velocity(kind)[:, :, 0])) if kind else None
+
+    def _exponential(self, sub: str, sup: str) -> FloatArray | None:
+        names = self._names
+        power = _POWER.fullmatch(sup)
+        if power and not sub:
+            i = int(power[1] or power[2])
+            right = names.joint(power[3]) == i
+            return names.truth.exponential(i) if right else None
+        if sub.isdecimal() and not sup:
+            return np.broadcast_to(
+                np.eye(names.rates.shape[1])[:, int(sub) - 1 : int(sub)], (len(names.rates), names.rates.shape[1], 1)
+            )
+        return None
