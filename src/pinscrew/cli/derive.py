@@ -39,10 +39,8 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 @click.option(
     "--format",
     "form",
-    type=click.Choice(["markdown", "latex", "html", "notebook"]),
-    default="markdown",
-    show_default=True,
-    help="How to write the report.",
+    type=click.Choice(["terminal", "markdown", "latex", "html", "notebook"]),
+    help="How to write the report; by default for a terminal where it is shown on one, else as Markdown.",
 )
 @click.option("-o", "--output", "target", type=arguments.OUTPUT, help="Write to this file.")
 @click.option(
@@ -86,7 +84,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 @click.option("--errata", is_flag=True, help="Show the mistakes of the printed coursework instead, and check them.")
 @click.option("--samples", default=100, show_default=True, type=click.IntRange(1), help="Of the numerical proof.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the numerical proof.")
-def command(words: tuple[str, ...], form: str, target: Path | None, errata: bool, **options: Any) -> None:
+def command(words: tuple[str, ...], form: str | None, target: Path | None, errata: bool, **options: Any) -> None:
     """Derive a frame's pose, velocities and Jacobians in closed form, step by step.
 
     Everything is exact and in symbols, and proved at the end: exit status 1 if it differs from either engine.
@@ -97,6 +95,7 @@ def command(words: tuple[str, ...], form: str, target: Path | None, errata: bool
       pinscrew derive planar_rrr --part i --convention lynch-park
       pinscrew derive path/to/arm.urdf --symbols --code c --kind hybrid
     """
+    form = form or ("terminal" if target is None and sys.stdout.isatty() else "markdown")
     text, ok = _errata(words, form) if errata else _report(words, form, **options)
     if target is None:
         click.echo(text, nl=not text.endswith("\n"))

@@ -13,6 +13,7 @@ from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
 from pinscrew.derivation.read_back import read_back
 from pinscrew.derivation.sections import sections
+from pinscrew.derivation.terminal import to_terminal
 from pinscrew.derivation.typeset import Typesetter
 from pinscrew.ground.errors import InputError
 
@@ -119,12 +120,14 @@ def written(derivation: Derivation, whole: Report, form: str) -> str:
         ReadBackError: the text does not say what was proved: a mistake in pinscrew, and no text is given.
         InputError, MissingExtraError: as for `write`.
     """
+    what = "The LaTeX of this text" if form == "terminal" else "This text"
     said = Paragraph(
-        f"This text was read back: {_COUNTED} matrices were parsed from it by a reader that knows nothing of what "
+        f"{what} was read back: {_COUNTED} matrices were parsed from it by a reader that knows nothing of what "
         "wrote them, evaluated at random values, and agree with PoE and Pinocchio."
     )
     text = write(replace(whole, sections=(*whole.sections, Section("", "read-back", "Read back", (said,)))), form)
-    found = read_back(derivation, text, form)
+    latex = write(whole, "markdown") if form == "terminal" else text
+    found = read_back(derivation, latex, "markdown" if form == "terminal" else form)
     return text.replace(_COUNTED, str(found.matrices))
 
 
@@ -133,7 +136,7 @@ def write(report: Report, form: str) -> str:
 
     Args:
         report: the report.
-        form: ``"markdown"``, ``"latex"``, ``"html"`` or ``"notebook"``.
+        form: ``"markdown"``, ``"latex"``, ``"html"``, ``"notebook"`` or ``"terminal"``.
 
     Raises:
         InputError: if there is no such format.
@@ -149,4 +152,5 @@ _FORMATS: Final[dict[str, Callable[[Report], str]]] = {
     "latex": formats.to_latex,
     "notebook": formats.to_notebook,
     "html": page.to_html,
+    "terminal": to_terminal,
 }
