@@ -301,3 +301,24 @@ def test_bad_input(ask: Callable[[ps.Robot], Any], code: str, words: str) -> Non
 def test_unknown_frame() -> None:
     with pytest.raises(UnknownNameError, match="there is no frame 'hand'"):
         ps.classify_singularity(load("scara"), np.zeros(3), "hand")
+
+
+def test_a_joint_that_moves_nothing_is_a_self_motion_by_itself() -> None:
+    """Not mixed with others: the last joint of UR5 turns the tool about an axis that its origin is on."""
+    (first, *_) = ps.find_singularities("ur5_robot", "tool0", task="position", starts=10)
+    last = first.velocity_names.index("wrist_3_joint")
+    alone = np.zeros(6)
+    alone[last] = 1.0
+    np.testing.assert_array_equal(first.self_motions[:, 0], alone)
+    assert (first.self_motions[last, 1:] == 0.0).all()
+    J = ps.Pinocchio("ur5_robot").jacobian(first.q, "tool0", "hybrid")[:3]
+    assert abs(J @ first.self_motions).max() < 1e-8
+
+
+def test_what_is_outside_the_limits_is_said() -> None:
+    robot = ps.load("scara")
+    upper = robot.limits[1, 1]
+    for value, outside in ((upper, ()), (upper + 1e-6, (robot.coordinate_names[1],))):
+        found = ps.classify_singularity(robot, [0.0, value, 0.0], task="position")
+        assert found.outside == outside
+        assert ("outside" in str(found)) == bool(outside)

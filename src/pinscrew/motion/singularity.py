@@ -63,6 +63,7 @@ class Singularity:
             they do not depend on ``length``. Shape (6, k), f or else m of length 1.
         self_motions: velocities that do not move the frame, shape (nv, s): the kernel of the Jacobian.
         joints: the joints whose values decide whether it is singular, to first order.
+        outside: the coordinates whose value is outside the robot's limits.
         T_base_frame: pose of the frame, shape (4, 4).
         coordinate_names: the names of ``q``.
         velocity_names: the names of ``self_motions``' rows.
@@ -80,6 +81,7 @@ class Singularity:
     wrenches: FloatArray
     self_motions: FloatArray
     joints: tuple[str, ...]
+    outside: tuple[str, ...]
     T_base_frame: FloatArray
     coordinate_names: tuple[str, ...]
     velocity_names: tuple[str, ...]
@@ -103,6 +105,8 @@ class Singularity:
         lines = [f"{self.robot}, {self.task} of {self.frame}: {kind}, rank {self.rank} of {self.freedoms}"]
         if self.singular:
             lines[0] += f", by {self._cause()}"
+        if self.outside:
+            lines[0] += f" (outside the limits of {', '.join(self.outside)})"
         lines += [f"lost: {_words(screw, self.task)}" for screw in self.wrench_screws]
         for motion in self.self_motions.T:
             moving = [f"{name} {x:+.3g}" for name, x in zip(self.velocity_names, motion, strict=True) if x]
@@ -172,9 +176,9 @@ class ScaledJacobian:
         """What `classify_singularity` returns, for coordinates (nq,)."""
         free, robot = self.free, self.free.robot
         J, dJ = self.matrix(q), self.derivatives(q)
-        U, values, Vt = np.linalg.svd(J)
+        U, values, _ = np.linalg.svd(J)
         rank = int((values > self._tolerance * values[0]).sum())
-        left, kernel = U[:, rank:], Vt[rank:].T
+        left, kernel = U[:, rank:], self._kernel(J, rank)
         # What the next configurations bring back of what this one can't do: (left, m, kernel).
         regained = np.einsum("al,iab,bk->lik", left, dJ, kernel)
         lost = left
@@ -191,6 +195,7 @@ class ScaledJacobian:
         # Rows were divided by lengths: a direction of motion goes back by them, a wrench against them, so that F·V is
         # the same power in both.
         lengths = 1.0 / self._weights
+        outside = (q < robot.limits[:, 0] - TOLERANCE) | (q > robot.limits[:, 1] + TOLERANCE)
         motions = np.zeros((robot.nv, kernel.shape[1]))
         motions[free.v] = free.scales[:, None] * _tidy(kernel)
         return Singularity(
@@ -206,10 +211,25 @@ class ScaledJacobian:
             wrenches=_unit(_tidy(lost) / lengths[:, None], first=0),
             self_motions=motions,
             joints=tuple(name for name, matters in zip(free.names, depends, strict=True) if matters),
+            outside=tuple(name for name, out in zip(robot.coordinate_names, outside, strict=True) if out),
             T_base_frame=self._engine.fk(q, free.frame),
             coordinate_names=robot.coordinate_names,
             velocity_names=robot.velocity_names,
         )
+
+    def _kernel(self, J: FloatArray, rank: int) -> FloatArray:
+        """An orthonormal basis (m, m - rank) of what J takes to zero.
+
+        A joint that does not move the frame by itself, such as the last of an arm the place of its own axis, is in
+        it by itself. The rest is the kernel of the other columns: one basis of all would mix the two by rounding.
+        """
+        sizes = np.linalg.norm(J, axis=0)
+        idle = sizes <= self._tolerance * sizes.max(initial=0.0)
+        rest = np.linalg.svd(J[:, ~idle])[2][rank:].T
+        kernel = np.zeros((J.shape[1], int(idle.sum()) + rest.shape[1]))
+        kernel[idle, : idle.sum()] = np.eye(int(idle.sum()))
+        kernel[~idle, idle.sum() :] = rest
+        return kernel
 
     def matrix(self, q: FloatArray) -> FloatArray:
         """The scaled hybrid Jacobian (..., k, m)."""
