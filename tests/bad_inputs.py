@@ -192,7 +192,7 @@ STRUCTURE: Final = [
          ("<xacro:property>", "xmlns:xacro="), JOINT_LINE),
     Case("a macro in a URDF", robot('<xacro:macro name="m"/>'), "unexpanded-xacro", ("<xacro:macro>",), JOINT_LINE),
     Case("10⁵ links", lambda: robot("".join(f'<link name="l{i}"/>' for i in range(100_000))), "too-large",
-         ("100002 links are more than 20000",), 1, "<robot>"),
+         ("100002 links are more than 10000",), 1, "<robot>"),
 ]  # fmt: skip
 
 BC: Final = '<parent link="b"/><child link="c"/>'

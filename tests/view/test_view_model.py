@@ -123,6 +123,10 @@ def test_scales_are_the_most_that_each_velocity_does() -> None:
     np.testing.assert_allclose(scales.linear, [2.0, 1.0], rtol=1e-12)  # 2 m from the axis; along the slide
     np.testing.assert_allclose(scales.field, [2.0, 1.0], rtol=1e-12)
     np.testing.assert_allclose(scales.angular, [1.0, 0.0], atol=1e-15)
+    # An elbow at 1 m, the tool 1 m farther: it is within 2 m of the shoulder, which it reaches only stretched.
+    two = urdfs.joint("a", "continuous", "base", "a"), urdfs.joint("b", "continuous", "a", "b", xyz="1 0 0")
+    fixed = urdfs.joint("c", "fixed", "b", "tool", xyz="1 0 0")
+    assert 1.95 < model(text=urdfs.robot(*two, fixed, links="base a b tool")).scales.linear[0] <= 2.0
     near = urdfs.robot(urdfs.joint("turn", "revolute", "base", "tool", xyz="3 0 0", axis="0 0 1"), links="base tool")
     scales = model(text=near).scales
     assert scales.linear.tolist() == [0.0]  # the tool is on the axis
@@ -131,9 +135,11 @@ def test_scales_are_the_most_that_each_velocity_does() -> None:
 
 def test_limits_of_velocities() -> None:
     fast = urdfs.joint("fast", "revolute", "base", "a").replace('velocity="1"', 'velocity="2.5"')
-    none = urdfs.joint("none", "continuous", "a", "tool")
+    none, still = urdfs.joint("none", "continuous", "a", "b"), fast.replace("2.5", "0").replace("fast", "still")
+    still = still.replace('"base"', '"b"').replace('link="a"', 'link="tool"')
     assert 'velocity="2.5"' in fast
-    assert model(text=urdfs.robot(fast, none, links="base a tool")).scales.limits.tolist() == [2.5, 1.0]
+    found = model(text=urdfs.robot(fast, none, still, links="base a b tool"))
+    assert found.scales.limits.tolist() == [2.5, 1.0, 1.0]
 
 
 @pytest.mark.parametrize("text", [ARM, MIXED, FREE])

@@ -165,6 +165,8 @@ class Placing:
         """The link's frame where all else stands as before: a tip that alone is displaced, or one chosen anew."""
         D, tolerance = self._crossing.D_out, self._tolerance
         T, now = D @ self._a.links[self._pair.link_a], self._b.links[self._pair.link_b]
+        if np.array_equal(T, now):  # most frames of most robots
+            return None
         move = seen_from(T, displacement(T, now), T[:3, 3], self._pair.link_b)
         if self._crossing.lost:
             return CarriedMoved("tip-moved", self._pair, move, alone=True)

@@ -34,8 +34,8 @@ UNIT_AXIS: Final = 1e-6
 VERSIONS: Final = ("1.0", "1.1", "1.2")
 """Of URDF; the last has quaternions."""
 
-MAX_LINKS: Final = 20_000
-"""Most links of a robot: reading ten thousand takes some 3 s."""
+MAX_LINKS: Final = 10_000
+"""Most links of a robot: with so many every command that reads one ends within ten seconds of processor time."""
 
 
 @dataclass(frozen=True, slots=True)

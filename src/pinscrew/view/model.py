@@ -105,11 +105,16 @@ class Model:
             placed += _solid(visual, meshes, parts, len(placed))
         size = _size(robot, solids, parts)
         bodies = []
+        long, short = (
+            twists.triad(part * size, width * size, COLORS) for part, width in ((0.17, 0.0055), (0.11, 0.004))
+        )
         for name in robot.frame_names:
             motion, home = robot.mechanism.motion_above[name], robot.mechanism.homes[name]
             if solids[name]:
                 bodies.append(Body("links", name, motion, home, tuple(solids[name])))
-            bodies.append(Body("frames", name, motion, home, _frame(name, size, main=name in (robot.base, tip))))
+            bodies.append(
+                Body("frames", name, motion, home, _frame(name, long if name in (robot.base, tip) else short))
+            )
         bodies += _axes(robot, size)
         engine = PoE(robot)
         scales = _scales(robot, engine, tip, size)
@@ -171,12 +176,9 @@ def _solid(visual: Visual, meshes: Mapping[Visual, Mesh], parts: list[MeshPart],
     return [PlacedShape(str(start + i), Shape(kind), M, color) for i, (kind, M) in enumerate(shapes)]  # type: ignore[arg-type]
 
 
-def _frame(name: str, size: float, *, main: bool) -> tuple[PlacedShape, ...]:
-    """Axes and label of a link's frame; those of the base and the tip are longer."""
-    length, radius = (0.17, 0.0055) if main else (0.11, 0.004)
-    axes = twists.triad(length * size, radius * size, COLORS)
-    label = PlacedShape("label", Shape("label", text=name), np.eye(4), (0.1, 0.1, 0.12, 1.0))
-    return (*axes, label)
+def _frame(name: str, axes: Sequence[PlacedShape]) -> tuple[PlacedShape, ...]:
+    """Axes and label of a link's frame."""
+    return (*axes, PlacedShape("label", Shape("label", text=name), np.eye(4), (0.1, 0.1, 0.12, 1.0)))
 
 
 def _axes(robot: Robot, size: float) -> list[Body]:
