@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import select
 import stat
+import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -105,6 +108,39 @@ def test_devices_are_written_to_directly(tmp_path: Path) -> None:
     assert os.read(end, 3) == b"12"
     os.close(end)
     assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+@pytest.mark.parametrize("function", [files.write, files.append])
+def test_a_pipe_that_nobody_reads_is_not_waited_for(function: Callable[[Path, bytes], None], tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    failures: list[Exception] = []
+
+    def attempt() -> None:
+        try:
+            function(pipe, b"1")
+        except InputError as error:
+            failures.append(error)
+
+    thread = threading.Thread(target=attempt, daemon=True)
+    thread.start()
+    thread.join(2)
+    assert [(error.code, "nobody reads" in error.what) for error in failures] == [("unwritable", True)]
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+def test_a_slow_reader_of_a_pipe_gets_all(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    end = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    os.set_blocking(end, True)
+    data = b"12345678" * 2**15  # more than a pipe holds
+    writer = threading.Thread(target=files.write, args=(pipe, data), daemon=True)
+    writer.start()
+    with os.fdopen(end, "rb") as stream:
+        select.select([stream], [], [], 5)
+        assert stream.read() == data
+    writer.join(5)
 
 
 @pytest.mark.skipif(not Path("/dev/fd").exists(), reason="there is no /dev/fd")

@@ -27,8 +27,8 @@ def write(path: Path, data: bytes) -> None:
     replaced, not even by root, and neither is one that we may not write to, though its folder would let us.
 
     Args:
-        path: the file, or a link to it; a device, a pipe, or a stream of ours such as ``/dev/stdout``, is written to
-            as it is.
+        path: the file, or a link to it; a device, a pipe that somebody reads, or a stream of ours such as
+            ``/dev/stdout``, is written to as it is.
         data: its content.
 
     Raises:
@@ -43,7 +43,8 @@ def write(path: Path, data: bytes) -> None:
         target = path.resolve()
         known = target.stat() if target.exists() else None
         if known is not None and not stat.S_ISREG(known.st_mode):
-            target.write_bytes(data)
+            with open(target, "wb", opener=_without_waiting) as device:
+                device.write(data)
         else:
             _replace(target, data, known)
     except (OSError, ValueError, RuntimeError) as error:  # a NUL character in the path; links in a circle
@@ -75,12 +76,22 @@ def append(path: Path, data: bytes) -> None:
         InputError: if it can't be written.
     """
     try:
-        with path.open("ab") as stream:
+        with open(path, "ab", opener=_without_waiting) as stream:
             stream.write(data)
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
 
 
+def _without_waiting(path: str, flags: int) -> int:
+    """Open a file; a pipe that nobody reads fails at once (ENXIO; POSIX, open), where it would wait for a reader."""
+    descriptor = os.open(path, flags | os.O_NONBLOCK, 0o666)
+    os.set_blocking(descriptor, True)  # a reader that is slow is waited for
+    return descriptor
+
+
 def _unwritable(path: Path, error: Exception) -> InputError:
-    what = f"can't be written ({getattr(error, 'strerror', None) or error})"
+    reason = getattr(error, "strerror", None) or error
+    if getattr(error, "errno", None) == errno.ENXIO:
+        reason = "it is a pipe that nobody reads, or a socket"
+    what = f"can't be written ({reason})"
     return InputError("unwritable", what, where=str(path))
