@@ -255,7 +255,8 @@ def test_places_reproduce_the_error() -> None:
 def test_pose_error() -> None:
     a, b = np.zeros((2, 3, 4, 4)), np.zeros((2, 3, 4, 4))
     b[0, 1, 0, 3], b[0, 2, 1, 1], b[1, 0, 2, 3], b[1, 1, 3, 0], b[1, 2, 0, 0] = -4.0, 0.5, 4.0, -1.0, np.nan
-    expected = [[0.0, 2.0, 0.5], [1.0, 1.0, np.inf]]
+    b[0, 0, 3, 3] = 0.25  # no length: it is divided by nothing
+    expected = [[0.25, 2.0, 0.5], [1.0, 1.0, np.inf]]
     np.testing.assert_array_equal(comparison.pose_error(a, b, np.array([2.0, 4.0])), expected)
 
 

@@ -112,8 +112,10 @@ def test_the_tip_is_the_one_that_was_asked_for() -> None:
     assert other.tip == "a"
     labels = {owner: len(body.parts) for owner, body in bodies(other, "frames").items()}
     assert set(labels) == {"base", "a", "tool"}
-    long, short = (bodies(other, "frames")[owner].parts[0].transform for owner in ("a", "tool"))
-    assert np.linalg.norm(long[:3, 2]) > np.linalg.norm(short[:3, 2])
+    axes = {owner: body.parts[0].transform for owner, body in bodies(other, "frames").items()}
+    lengths = {owner: float(np.linalg.norm(T[:3, 2])) / other.size for owner, T in axes.items()}
+    assert lengths["a"] == lengths["base"] > 1.2 * lengths["tool"]
+    assert 0.05 < lengths["tool"] < lengths["a"] < 0.25
     with pytest.raises(UnknownNameError):
         Model.of(robot, Looks(()), {}, "nowhere")
 
