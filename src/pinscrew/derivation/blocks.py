@@ -7,7 +7,19 @@ from typing import TypeAlias
 
 from pinscrew.ground.escaping import visible
 
-__all__ = ["Block", "Formula", "Paragraph", "Report", "Section", "Table", "from_file", "named"]
+__all__ = [
+    "Block",
+    "Formula",
+    "Paragraph",
+    "Report",
+    "Section",
+    "Sketch",
+    "SketchLabel",
+    "SketchLine",
+    "Table",
+    "from_file",
+    "named",
+]
 
 
 def named(text: str) -> str:
@@ -50,7 +62,36 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
 
-Block: TypeAlias = Paragraph | Formula | Table
+@dataclass(frozen=True, slots=True)
+class SketchLine:
+    """A line through points (in points of the page, y upwards) in a colour ``#rrggbb``."""
+
+    points: tuple[tuple[float, float], ...]
+    color: str
+    width: float
+    dashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SketchLabel:
+    """A text about a place: a formula in LaTeX, or a name from a file."""
+
+    at: tuple[float, float]
+    text: str
+    color: str
+    formula: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Sketch:
+    """A line drawing and its size (points); what cannot show it leaves it out."""
+
+    lines: tuple[SketchLine, ...]
+    labels: tuple[SketchLabel, ...]
+    size: tuple[float, float]
+
+
+Block: TypeAlias = Paragraph | Formula | Table | Sketch
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
 from collections.abc import Callable
 from typing import Any, Final, TypeAlias
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Sketch, Table
+from pinscrew.derivation.sketch_formats import sketch_latex, sketch_svg
 from pinscrew.ground.escaping import latex, markdown
 
 __all__ = ["to_latex", "to_markdown", "to_notebook"]
@@ -38,11 +40,11 @@ def to_markdown(report: Report) -> str:
     for section in report.sections:
         lines += [f"## {section.heading}", ""]
         for block in section.blocks:
-            lines += [_markdown(block), ""]
+            lines += [] if isinstance(block, Sketch) else [_markdown(block), ""]
     return "\n".join(lines)
 
 
-def _markdown(block: Block) -> str:
+def _markdown(block: Paragraph | Formula | Table) -> str:
     if isinstance(block, Formula):
         return f"$$\n{aligned(block)}\n$$"
     if isinstance(block, Paragraph):
@@ -65,7 +67,8 @@ def _markdown_text(text: str, *, in_table: bool = False) -> str:
 
 _PREAMBLE: Final = r"""\documentclass[11pt]{article}
 \usepackage[utf8]{inputenc}
-\usepackage{amsmath,amssymb,graphicx}
+\usepackage{amsmath,amssymb,graphicx,color}
+\IfFileExists{pict2e.sty}{\usepackage{pict2e}}{}
 \usepackage[a4paper,margin=22mm]{geometry}
 \DeclareUnicodeCharacter{03C9}{\ensuremath{\omega}}
 \DeclareUnicodeCharacter{03B8}{\ensuremath{\theta}}
@@ -98,6 +101,8 @@ def _latex(block: Block) -> str:
         return rf"\fitted{{{aligned(block)}}}"
     if isinstance(block, Paragraph):
         return _text(block.text) + "\n"
+    if isinstance(block, Sketch):
+        return sketch_latex(block)
     columns = "l" * len(block.head)
     rows = [" & ".join(map(_text, row)) + r" \\" for row in (block.head, *block.rows)]
     rows.insert(1, r"\hline")
@@ -150,7 +155,15 @@ _SHOWN: Final = {
 
 
 def _section(section: Section) -> str:
-    return "\n\n".join((f"## {section.heading}", *map(_markdown, section.blocks)))
+    return "\n\n".join((f"## {section.heading}", *map(_notebook_block, section.blocks)))
+
+
+def _notebook_block(block: Block) -> str:
+    """As in Markdown, with drawings as pictures in the cell itself."""
+    if not isinstance(block, Sketch):
+        return _markdown(block)
+    data = base64.b64encode(sketch_svg(block).encode("utf-8")).decode("ascii")
+    return f"![The arm at zero: links, joint axes and frames](data:image/svg+xml;base64,{data})"
 
 
 def _cell(kind: str, source: str) -> dict[str, Any]:

@@ -8,8 +8,9 @@ import re
 from importlib.resources import files
 from typing import Final
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Sketch, Table
 from pinscrew.derivation.formats import is_long, split_text
+from pinscrew.derivation.sketch_formats import sketch_svg
 from pinscrew.ground.errors import MissingExtraError
 from pinscrew.ground.escaping import html as escape
 
@@ -47,6 +48,8 @@ table.data { border-collapse: collapse; margin: 0.8rem 0 1rem; font-size: 0.95re
 table.data th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); }
 table.data th, table.data td { padding: 0.22rem 1.4rem 0.22rem 0; }
 table.data tbody td { border-bottom: 1px solid #ececec; }
+figure.arm { margin: 1rem 0 1.4rem; }
+figure.arm svg { max-width: 100%; height: auto; }
 .failed { color: #b00020; font-weight: 600; }
 @media (max-width: 40rem) { body { padding: 1.2rem 0.9rem 3rem; } .lines { padding-left: 0; } }
 @media print { details, nav { display: none; } body { max-width: none; padding: 0; font-size: 10pt; }
@@ -114,6 +117,8 @@ def _block(block: Block) -> str:
         return _formula(block)
     if isinstance(block, Paragraph):
         return f"<p>{_text(block.text)}</p>"
+    if isinstance(block, Sketch):
+        return f'<figure class="arm">{sketch_svg(block, in_page=True)}</figure>'
     return _table(block)
 
 

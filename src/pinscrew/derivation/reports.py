@@ -13,6 +13,7 @@ from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
 from pinscrew.derivation.read_back import read_back
 from pinscrew.derivation.sections import sections
+from pinscrew.derivation.sketch import sketch
 from pinscrew.derivation.terminal import to_terminal
 from pinscrew.derivation.typeset import Typesetter
 from pinscrew.ground.errors import InputError
@@ -58,6 +59,8 @@ def _given(derivation: Derivation) -> Section:
         rows.append((named(joint.variable.joint), kind, value))
     if rows:
         blocks.append(Table(("joint", "", "value"), tuple(rows)))
+    if d.screws:
+        blocks.append(sketch(d))
     if d.lengths:
         rows = [(f"${t(s)}$", f"{float(value):.9g}") for s, value in d.lengths.items()]
         blocks += [Paragraph("Symbols, and their values in this file:"), Table(("symbol", "value"), tuple(rows))]

@@ -6,7 +6,7 @@ import shutil
 import textwrap
 
 from pinscrew.derivation import unicode_math
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Sketch, Table
 from pinscrew.derivation.formats import split_text
 from pinscrew.ground.escaping import terminal
 
@@ -25,7 +25,7 @@ def to_terminal(report: Report) -> str:
         heading = _text(section.heading)
         found += [heading, "─" * min(unicode_math.width(heading), columns), ""]
         for block in section.blocks:
-            found += [*_block(block, columns), ""]
+            found += [] if isinstance(block, Sketch) else [*_block(block, columns), ""]
     return "\n".join(found)
 
 
@@ -38,7 +38,7 @@ def _block(block: Block, columns: int) -> list[str]:
         return [f"  {line}" for line in unicode_math.lines(block.latex, columns - 2)]
     if isinstance(block, Paragraph):
         return textwrap.wrap(_text(block.text), columns) or [""]
-    return _table(block, columns)
+    return _table(block, columns) if isinstance(block, Table) else []
 
 
 def _table(table: Table, columns: int) -> list[str]:
