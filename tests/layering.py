@@ -18,7 +18,7 @@ FLOORS = (
     {"engines", "engines.compiled"},
     {"witnesses"},
     {"verification", "derivation"},
-    {"changes"},
+    {"changes", "dh"},
     {"lockfile", "motion"},
     {"workspace"},
     {"view"},

@@ -27,6 +27,7 @@ __all__ = ["command", "main"]
 _COMMANDS: Final = {
     "completion": "pinscrew.cli.completion",
     "derive": "pinscrew.cli.derive",
+    "dh": "pinscrew.cli.dh",
     "diff": "pinscrew.cli.diff",
     "expand": "pinscrew.cli.expand",
     "fk": "pinscrew.cli.fk",

@@ -1,0 +1,1 @@
+"""Denavit-Hartenberg tables of serial chains, from their screws, and proved against both engines."""
