@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import pickle
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -503,3 +505,26 @@ def test_workers_load_a_task_once() -> None:
     assert [int(run_pickled(task, 0).counts.sum()) for _ in range(3)] == [10] * 3
     after = blocks._loaded.cache_info()
     assert (after.misses - before.misses, after.hits - before.hits) == (1, 2)
+
+
+@pytest.mark.parametrize("kind", ["pipe", "zero"])
+def test_what_is_no_plain_file_is_not_read(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / f"{kind}.npz"
+    if kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.symlink_to("/dev/zero")
+    failures: list[InputError] = []
+
+    def attempt() -> None:
+        try:
+            read_map(path)
+        except InputError as error:
+            failures.append(error)
+
+    thread = threading.Thread(target=attempt, daemon=True)
+    thread.start()
+    thread.join(2)
+    if thread.is_alive() and kind == "pipe":
+        os.close(os.open(path, os.O_WRONLY | os.O_NONBLOCK))  # let it end
+    assert [(error.code, "no plain file" in error.what) for error in failures] == [("unreadable", True)]

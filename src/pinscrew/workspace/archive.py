@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
 import struct
@@ -116,6 +117,8 @@ def _is(array: NDArray[Any], kind: str, lengths: tuple[int | None, ...]) -> bool
 def _read(path: Path, schema: str) -> tuple[Arrays, str]:
     """The arrays of an npz file; of one that is something else the provenance alone. Or why there are none."""
     try:
+        if path.exists() and not (path.is_file() or path.is_dir()):  # a pipe may never begin, /dev/zero never end
+            raise OSError(errno.EINVAL, "it is no plain file")
         stream = path.open("rb")
     except (OSError, ValueError) as error:  # ValueError: a NUL character in the path
         code = "no-file" if isinstance(error, FileNotFoundError) else "unreadable"
