@@ -42,10 +42,11 @@ def loaded(text: str) -> Any:
 
 def test_list() -> None:
     lines = ok("list").out.splitlines()
-    assert lines[0].split() == ["robot", "also", "arguments", "what", "it", "is"]
+    assert lines[0].split() == ["robot", "also", "arguments", "what", "it", "is", "from"]
     assert [line.split()[0] for line in lines[1:]] == NAMES
     (scara,) = (line for line in lines if line.startswith("scara_rrp"))
-    assert scara.split() == ["scara_rrp", "scara", "l1:=0.4", "l2:=0.3", "SCARA", "RRP", "arm"]
+    assert scara.split()[:7] == ["scara_rrp", "scara", "l1:=0.4", "l2:=0.3", "SCARA", "RRP", "arm"]
+    assert scara.endswith("Robotics, assignment 2, questions 7 and 11")
 
 
 def test_list_json() -> None:

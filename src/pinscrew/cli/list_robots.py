@@ -36,9 +36,9 @@ def command(examples: bool, as_json: bool) -> None:
         ]
         print_json({"schema": "pinscrew.list/1", "robots": rows})
         return
-    shown = table("robot", "also", "arguments", "what it is")
+    shown = table("robot", "also", "arguments", "what it is", "from")
     for entry in entries:
         arguments = catalogue.declared_arguments(entry.file)
         defaults = " ".join(f"{name}:={default}" for name, default in arguments.items())
-        shown.add_row(entry.name, ", ".join(entry.aliases), defaults, entry.title)
+        shown.add_row(entry.name, ", ".join(entry.aliases), defaults, entry.title, entry.coursework)
     console().print(shown)
