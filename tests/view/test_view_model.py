@@ -80,6 +80,7 @@ def test_meshes_are_kept_once_and_have_their_own_colour_first() -> None:
     [
         (visual("box", 2, 4, 6), (-1, 1, 0), (3, 3, 6)),  # turned, x is along y
         (visual("cylinder", 0.5, 4), (0.5, 1.5, 1), (1.5, 2.5, 5)),
+        (visual("cylinder", 1.5, 4), (-0.5, 0.5, 1), (2.5, 3.5, 5)),  # beyond the origins on all sides
         (visual("sphere", 0.5), (0.5, 1.5, 2.5), (1.5, 2.5, 3.5)),
     ],
 )

@@ -53,3 +53,10 @@ def test_a_free_body_has_no_screw() -> None:
     single = {motion.joint.name for motion in model.robot.mechanism.motions if motion.twists.shape[1] == 1}
     assert len(single) < len(model.robot.mechanism.motions)
     assert {body.owner for body in model.bodies if body.group == "screws"} == single
+
+
+def test_colours_are_between_0_and_1() -> None:
+    for text in (ARM, FREE):
+        for part in (part for body in made(text).bodies for part in body.parts):
+            assert len(part.color) == 4
+            assert all(0.0 <= channel <= 1.0 for channel in part.color)
