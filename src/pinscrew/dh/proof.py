@@ -16,7 +16,7 @@ from pinscrew.verification.configurations import configurations
 __all__ = ["DH_TOLERANCE", "dh_differences"]
 
 DH_TOLERANCE: Final = 1e-9
-"""Rounding of a table: angles within 5e-11 of a multiple of 15° are it, in each row."""
+"""Rounding of a table: lengths and angles are put right by up to 5e-11 in each row."""
 
 
 def dh_differences(table: DHTable, robot: Robot, *, samples: int = 50, seed: int = 0) -> dict[str, float]:

@@ -31,6 +31,8 @@ NEARLY_PARALLEL: Final = 1e-3
 """Sine of the angle between axes below which their common normal is taken for undetermined."""
 ROUNDING: Final = 1e-12
 """Lengths (m) below this are none."""
+SNAP: Final = 5e-11
+"""Lengths (m) this near to whole nanometres are these: what rounded angles make of them within a metre."""
 ANGLE_ROUNDING: Final = 5e-11
 """Angles (rad) this near to a multiple of 15° are it: files write π/2 as 1.57079632679, and it adds up."""
 
@@ -183,7 +185,7 @@ def _step(
         d = float(p[2]) if last else 0.0
         r = p + (d - p[2]) / w[2] * w
         away = math.hypot(r[0], r[1])
-        x = np.array([r[0], r[1], 0.0]) / away if away > ROUNDING else np.array([1.0, 0.0, 0.0])
+        x = np.array([r[0], r[1], 0.0]) / away if away > SNAP else np.array([1.0, 0.0, 0.0])
     if x[0] < -ANGLE_ROUNDING or (abs(x[0]) <= ANGLE_ROUNDING and x[1] < 0.0):
         x = -x  # -90° < θ ≤ 90°
     theta = _angle(math.atan2(x[1], x[0]))
@@ -202,7 +204,7 @@ def _angle(value: float) -> float:
 def _length(value: float) -> float:
     """The length, or the whole nanometres that it is but for rounding."""
     exact = round(value, 9)
-    return exact + 0.0 if abs(value - exact) < ROUNDING * max(1.0, abs(value)) else value
+    return exact + 0.0 if abs(value - exact) < SNAP else value
 
 
 def _about_z(theta: float, d: float) -> FloatArray:
