@@ -569,10 +569,10 @@ def test_each_robot_is_asked_once_for_all_its_tips(monkeypatch: pytest.MonkeyPat
 
 @pytest.mark.slow
 def test_ten_thousand_links() -> None:
-    a = star(10_000)
+    a = star(9_999)
     assert ps.diff(a, a).same
-    assert len(ps.diff(a, star(10_000, "0.2 0 0")).changes) == 10_000
-    assert len(ps.diff(a, star(9_000)).changes) == 1_000
+    assert len(ps.diff(a, star(9_999, "0.2 0 0")).changes) == 9_999
+    assert len(ps.diff(a, star(9_000)).changes) == 999
 
 
 def test_too_many_changes_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
