@@ -19,6 +19,7 @@ FILE = "arm.urdf"
 EVERY: dict[str, list[str]] = {
     "completion": ["bash"],
     "derive": [FILE],
+    "dh": [FILE],
     "diff": [FILE, FILE],
     "expand": [FILE],
     "fk": [FILE],

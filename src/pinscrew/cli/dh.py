@@ -41,7 +41,7 @@ def command(
 
     \b
       pinscrew dh anthropomorphic
-      pinscrew dh panda.urdf --tip panda_link8 --convention modified
+      pinscrew dh path/to/arm.urdf --convention modified
     """
     from pinscrew.dh.proof import DH_TOLERANCE, dh_differences
     from pinscrew.dh.table import dh_table
