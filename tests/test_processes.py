@@ -213,6 +213,43 @@ def test_programs_end_with_their_parent(number: int, mark: str, tmp_path: Path) 
         assert until(lambda: not marked(mark))
 
 
+DROPPED = """
+import os
+import time
+from pinscrew.cli.endings import heard
+from pinscrew.view.png import BROWSERS
+
+class Dropping:
+    def __del__(self):
+        os.write(2, b"ready\\n")
+        time.sleep(600)
+
+try:
+    with heard():
+        Dropping()
+        try:
+            time.sleep(600)
+        except:
+            os.write(2, b"dropped\\n")
+        time.sleep(600)
+except KeyboardInterrupt:
+    raise SystemExit(130)
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_an_end_that_a_library_drops(number: int, mark: str, tmp_path: Path) -> None:
+    """One signal is enough, wherever it comes: it is raised until it ends the command."""
+    with start(tmp_path / "script.py", mark, DROPPED) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline() == "ready\n"
+        process.send_signal(number)
+        assert process.stderr.readline() == "dropped\n"
+        _, said = process.communicate(timeout=30)
+    assert said == ""
+    assert process.returncode == 128 + number
+
+
 COMMANDS = {
     "a picture": ("show", "panda", "--png", "{folder}/panda.png"),
     "a map": ("workspace", "spherical_rrp", "--map", "{folder}/map.npz", "--samples", "1000000000", "--jobs", "2"),

@@ -7,18 +7,17 @@ import difflib
 import errno
 import io
 import os
-import signal
 import sys
 import traceback
 import warnings
 from collections.abc import Iterator
 from importlib import import_module
-from types import FrameType
 from typing import Any, Final
 
 import click
 
 from pinscrew import __version__
+from pinscrew.cli.endings import heard
 from pinscrew.cli.output import say
 from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 
@@ -110,7 +109,6 @@ def main() -> None:
     output that has had enough 141. Output that can't be written, to a full disk say, is an error.
     """
     _open_streams()
-    _hear_signals()
     warnings.showwarning = _show_warning
     try:
         status = _run()
@@ -133,7 +131,8 @@ def main() -> None:
 def _run() -> int:
     """Run the command; its exit status."""
     try:
-        command(prog_name="pinscrew", standalone_mode=False)
+        with heard():
+            command(prog_name="pinscrew", standalone_mode=False)
     except SystemExit as end:
         return int(end.code or 0)
     except PinscrewError as error:
@@ -185,18 +184,6 @@ def _silence() -> None:
             continue
         with contextlib.suppress(io.UnsupportedOperation):  # a stream without a file, in tests
             os.dup2(nowhere, stream.fileno())
-
-
-def _hear_signals() -> None:
-    """Have what ends a process end this one like an error does: what is half done is taken away."""
-    for name in ("SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)
-        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, _end)
-
-
-def _end(number: int, _frame: FrameType | None) -> None:
-    sys.exit(128 + number)  # as a shell says it
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
