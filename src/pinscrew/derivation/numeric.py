@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.printing.numpy import NumPyPrinter
 
 from pinscrew.derivation.forms import ClosedForms
 from pinscrew.ground.typing import FloatArray
@@ -47,8 +48,7 @@ def evaluate(
             known[symbol] = _value(meaning, known, len(q))
     symbols = [symbol for symbol in known if symbol in wanted]
     entries = [entry for matrix in matrices for entry in matrix]
-    function = sp.lambdify(symbols, entries, "numpy")
-    values = function(*(known[symbol] for symbol in symbols))
+    values = _function(symbols, entries)(*(known[symbol] for symbol in symbols))
     flat = np.stack([np.broadcast_to(np.asarray(value, dtype=float), len(q)) for value in values], axis=-1)
     found, start = [], 0
     for matrix in matrices:
@@ -60,5 +60,16 @@ def evaluate(
 
 def _value(expression: sp.Expr, known: Mapping[sp.Symbol, FloatArray], count: int) -> FloatArray:
     symbols = sorted(expression.free_symbols, key=str)
-    value = sp.lambdify(symbols, expression, "numpy")(*(known[symbol] for symbol in symbols))
+    value = _function(symbols, expression)(*(known[symbol] for symbol in symbols))
     return np.broadcast_to(np.asarray(value, dtype=float), count)
+
+
+def _function(symbols: Sequence[sp.Symbol], expressions: Any) -> Callable[..., Any]:
+    """Expressions as a function of arrays.
+
+    With ``"numpy"`` for its modules, `sympy.lambdify` would load all that numpy has, f2py among it, which takes 0.1 s;
+    given its printer it imports what the expressions need.
+    """
+    settings = {"fully_qualified_modules": False, "inline": True, "allow_unknown_functions": True}
+    function: Callable[..., Any] = sp.lambdify(symbols, expressions, modules=[], printer=NumPyPrinter(settings))
+    return function

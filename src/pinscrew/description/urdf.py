@@ -76,7 +76,7 @@ def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
     It is given these alone: it refuses geometry that it does not know, reads no link at all where an ``xmlns`` is
     declared, and fails on the axis of a fixed joint if that is none.
     """
-    import yourdfpy  # here, since it takes half a second that no error should wait for
+    from pinscrew.description._yourdfpy import parser  # here, since no error should wait for it
 
     robot = ET.Element("robot", name=checked.name)
     for link in checked.links:
@@ -87,7 +87,7 @@ def _parse_kinematics(checked: structure.Checked) -> yourdfpy.Robot:
             if child.tag in _KINEMATIC and kind not in _WITHOUT.get(child.tag, ()):
                 _copy(child, copy)
     stream = io.BytesIO(ET.tostring(robot, encoding="utf-8"))
-    return yourdfpy.URDF.load(stream, load_meshes=False, build_scene_graph=False).robot
+    return parser().load(stream, load_meshes=False, build_scene_graph=False).robot
 
 
 def _copy(element: markup.Element, parent: ET.Element) -> ET.Element:

@@ -1,7 +1,5 @@
 """The version of pinscrew, and of the packages that an answer was made with."""
 
-import importlib.metadata
-
 __all__ = ["__version__", "version_of"]
 
 __version__ = "0.1.0"  # the build reads it from this line, so it has no annotation
@@ -15,6 +13,8 @@ def version_of(distribution: str) -> str:
     """
     if distribution == "pinscrew":
         return __version__
+    import importlib.metadata  # here, since it takes 20 ms that no command should wait for
+
     try:
         return importlib.metadata.version(distribution)
     except importlib.metadata.PackageNotFoundError:
