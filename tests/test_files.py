@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+import urdfs
+from command_line import ok, refused
+from pinscrew.description.packages import package_name
 from pinscrew.ground import files
 from pinscrew.ground.errors import InputError
 
@@ -182,3 +185,29 @@ def test_append(tmp_path: Path) -> None:
     assert (tmp_path / "a").read_bytes() == b"12"
     with pytest.raises(InputError):
         files.append(tmp_path / "no" / "a", b"1")
+
+
+def test_only_plain_files_are_read(tmp_path: Path) -> None:
+    """At once, whatever it is: opening a pipe for reading waits for a writer, and /dev/zero never ends."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (pipe, Path("/dev/zero"), tmp_path):
+        with pytest.raises(OSError, match=r"plain file|directory"):
+            files.open_plain(path)
+    plain = tmp_path / "plain"
+    plain.write_bytes(b"12")
+    with files.open_plain(plain) as stream:
+        assert stream.read() == b"12"
+
+
+def test_pipes_where_other_files_are_looked_for(tmp_path: Path) -> None:
+    """A lock to be written anew, and the description of a package: neither is waited for."""
+    robot = tmp_path / "a.urdf"
+    robot.write_text(urdfs.single_revolute())
+    lock = tmp_path / "a.urdf.lock"
+    os.mkfifo(lock)
+    assert str(lock) in refused("lock", robot)
+    assert stat.S_ISFIFO(lock.stat().st_mode)
+    os.mkfifo(tmp_path / "package.xml")
+    assert package_name(tmp_path) == ""
+    assert ok("fk", robot, "-q", "0").out

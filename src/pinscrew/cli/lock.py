@@ -15,6 +15,7 @@ from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
 from pinscrew.cli.reports import Wanted, fail_on_option, report_options
 from pinscrew.ground.errors import DescriptionError, PinscrewError
+from pinscrew.ground.files import open_plain
 
 if TYPE_CHECKING:
     from pinscrew.lockfile.checking import LockCheck
@@ -154,7 +155,9 @@ def _kept(path: Path) -> frozenset[str] | None:
 def _holds(path: Path, content: str) -> bool:
     """Whether a file has this content already."""
     try:
-        return path.read_bytes() == content.encode("utf-8")
+        with open_plain(path) as stream:
+            wanted = content.encode("utf-8")
+            return stream.read(len(wanted) + 1) == wanted
     except OSError:
         return False
 

@@ -15,6 +15,7 @@ from typing import Final, NoReturn, TypeAlias
 from xml.parsers import expat
 
 from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.files import open_plain
 
 __all__ = ["MAX_BYTES", "Element", "Place", "decode", "parse", "read"]
 
@@ -58,9 +59,7 @@ def read(path: Path) -> str:
         DescriptionError: if it can't be read, is no plain file (a pipe may never end), is too large, or is not UTF-8.
     """
     try:
-        if path.exists() and not (path.is_file() or path.is_dir()):
-            raise DescriptionError("unreadable", "can't be read (it is no plain file)", file=path)
-        with path.open("rb") as stream:
+        with open_plain(path) as stream:
             data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
         raise DescriptionError("no-file", "there is no such file", file=path) from None

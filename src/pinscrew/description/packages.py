@@ -13,6 +13,7 @@ from typing import Final
 from urllib.parse import unquote
 
 from pinscrew.ground.errors import DescriptionError
+from pinscrew.ground.files import open_plain
 from pinscrew.ground.words import brief, one_line
 
 __all__ = ["Packages", "is_file", "is_package", "package_name", "packages_below"]
@@ -229,7 +230,7 @@ def _named(name: str, packages: Iterator[Path]) -> Iterator[Path]:
 def package_name(root: Path) -> str:
     """The name in a folder's ``package.xml``, or ``""``."""
     try:
-        with (root / "package.xml").open("rb") as stream:
+        with open_plain(root / "package.xml") as stream:
             text = stream.read(LARGEST).decode("utf-8", "replace")
     except OSError:
         return ""

@@ -9,15 +9,29 @@ import re
 import secrets
 import stat
 from pathlib import Path
-from typing import Final
+from typing import BinaryIO, Final
 
 from pinscrew.ground.errors import InputError
 
-__all__ = ["append", "write"]
+__all__ = ["append", "open_plain", "write"]
 
 _STREAM: Final = re.compile("/dev/(?:(stdout|stderr)|fd/([0-9]{1,9}))")
 """An open stream, which may be a file that is not to be replaced: another process may hold it too."""
 _NUMBERS: Final = {"stdout": 1, "stderr": 2}
+
+
+def open_plain(path: Path) -> BinaryIO:
+    """A file opened for reading, at once; only a plain one: a pipe may never begin, and /dev/zero never ends.
+
+    Raises:
+        OSError: if it can't be opened, or is something else.
+        ValueError: if there is a NUL character in the path.
+    """
+    stream = open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK))  # noqa: SIM115 (the caller closes it)
+    if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+        stream.close()
+        raise OSError(errno.EINVAL, "it is no plain file")
+    return stream
 
 
 def write(path: Path, data: bytes) -> None:

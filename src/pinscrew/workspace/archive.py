@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import io
 import json
 import struct
@@ -117,9 +116,7 @@ def _is(array: NDArray[Any], kind: str, lengths: tuple[int | None, ...]) -> bool
 def _read(path: Path, schema: str) -> tuple[Arrays, str]:
     """The arrays of an npz file; of one that is something else the provenance alone. Or why there are none."""
     try:
-        if path.exists() and not (path.is_file() or path.is_dir()):  # a pipe may never begin, /dev/zero never end
-            raise OSError(errno.EINVAL, "it is no plain file")
-        stream = path.open("rb")
+        stream = files.open_plain(path)
     except (OSError, ValueError) as error:  # ValueError: a NUL character in the path
         code = "no-file" if isinstance(error, FileNotFoundError) else "unreadable"
         what = f"can't be read ({getattr(error, 'strerror', None) or error})"
