@@ -14,7 +14,7 @@ from pinscrew.description.visuals import Looks
 from pinscrew.ground.escaping import json_in_script
 from pinscrew.ground.typing import FloatArray
 from pinscrew.view import document, prepare, scene, twists
-from pinscrew.view.model import Model, default_tip, samples
+from pinscrew.view.model import Model, samples
 from pinscrew.view.shapes import GROUPS, Drawable
 
 
@@ -178,11 +178,6 @@ def test_traces_and_clouds_are_tip_positions(model: Model) -> None:
     ends = ps.PoE(model.robot).fk(np.stack([model.robot.neutral, q]), model.tip)[:, :3, 3]
     assert np.allclose(trail[[0, -1]], ends, rtol=0, atol=1e-12 * max(1.0, model.robot.reach))
     assert scene.cloud(model).shape == (scene.CLOUD, 3)
-
-
-def test_of_several_leaves_the_one_below_most_joints_is_the_tip() -> None:
-    assert default_tip(urdfs.load(MIXED)) == "tool"
-    assert default_tip(ps.load("scara")) == "tool"
 
 
 def test_every_drawable_belongs_to_a_known_group(model: Model) -> None:

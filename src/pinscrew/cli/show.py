@@ -90,7 +90,7 @@ def command(
       pinscrew show two_joint --qd 1,0.5 --draw screws,circles
       pinscrew show panda --html panda.html
     """
-    from pinscrew.view import prepare
+    from pinscrew.view import opening, prepare
 
     named = arguments.robot(words)
     robot = named.load()
@@ -98,7 +98,13 @@ def command(
     model = prepare.prepare(robot, tip=tip, **where)
     if draw is None:
         draw = ("links", "frames", "screws", *(["velocity"] if rates is not None else []))
-    state = prepare.begin(model, arguments.configuration(robot, values), _rates(model, rates), draw=draw)
+    q = None
+    if values is not None and values.strip():
+        q = arguments.configuration(robot, values)
+    elif beside := opening.beside_zero(robot):
+        names = ", ".join(beside)
+        click.echo(f"pinscrew: zero is outside the limits of {names}: shown in the middle of them", err=True)
+    state = prepare.begin(model, q, _rates(model, rates), draw=draw)
     if html_file is not None:
         output.write_file(html_file, prepare.page(model, state))
     if png_file is not None:

@@ -11,7 +11,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from pinscrew.ground.typing import FloatArray, JacobianKind
-from pinscrew.view import scene
+from pinscrew.view import opening, scene
 from pinscrew.view.mesh_files import MeshPart
 from pinscrew.view.model import Body, Model
 from pinscrew.view.shapes import COLORS, GROUPS, Group, PlacedShape
@@ -76,10 +76,16 @@ def document(model: Model, state: State, *, live: str = "", picture: tuple[int, 
                 "lower": _finite(low),
                 "upper": _finite(high),
                 "neutral": float(zero),
+                "opening": float(start),
                 "angle": unit == "rad",
             }
-            for name, (low, high), zero, unit in zip(
-                robot.coordinate_names, robot.limits, robot.neutral, robot.coordinate_units, strict=True
+            for name, (low, high), zero, start, unit in zip(
+                robot.coordinate_names,
+                robot.limits,
+                robot.neutral,
+                opening.configuration(robot),
+                robot.coordinate_units,
+                strict=True,
             )
         ],
         "velocities": list(robot.velocity_names),

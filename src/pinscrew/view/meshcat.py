@@ -224,9 +224,9 @@ def show(
 
     Args:
         robot: a robot, or a name or path that `load` takes.
-        q: configuration, shape (nq,), rad and m; by default zero.
+        q: configuration, shape (nq,), rad and m; by default zero, or the middle of the limits where they exclude zero.
         qd: velocities, shape (nv,), rad/s and m/s; by default 1 rad/s, and a quarter of the robot's size per second.
-        tip: the frame whose velocity is shown; by default the robot's tip, or the leaf below most joints.
+        tip: the frame whose velocity is shown; by default the robot's tip, or as `opening.default_tip` chooses.
         kind: the Jacobian in the panel.
         draw: what is drawn at first, of `pinscrew.view.shapes.GROUPS`.
         packages: roots of ROS packages by name, for ``package://`` in meshes.

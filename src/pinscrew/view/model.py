@@ -10,15 +10,14 @@ import numpy as np
 
 from pinscrew.description.visuals import DEFAULT_COLOR, Looks, Visual
 from pinscrew.engines.poe import PoE
-from pinscrew.ground.errors import AmbiguousTipError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
 from pinscrew.robot.robot import Robot
-from pinscrew.view import twists
+from pinscrew.view import opening, twists
 from pinscrew.view.mesh_files import Mesh, MeshPart
 from pinscrew.view.shapes import COLORS, Group, PlacedShape, Shape, stretch
 
-__all__ = ["Body", "Model", "Scales", "default_tip", "samples"]
+__all__ = ["Body", "Model", "Scales", "samples"]
 
 SMALLEST: Final = 1e-6
 """Size (m) given to a robot that has neither reach nor looks."""
@@ -92,12 +91,12 @@ class Model:
             robot: the robot.
             looks: of its links.
             meshes: of the visuals that are meshes.
-            tip: the frame whose velocity is shown; by default `default_tip`.
+            tip: the frame whose velocity is shown; by default `opening.default_tip`.
 
         Raises:
             UnknownNameError: if there is no frame ``tip``.
         """
-        tip = default_tip(robot) if tip is None else robot.frame(tip)
+        tip = opening.default_tip(robot) if tip is None else robot.frame(tip)
         solids: dict[str, list[PlacedShape]] = {name: [] for name in robot.frame_names}
         parts: list[MeshPart] = []
         for visual in looks.visuals:
@@ -119,14 +118,6 @@ class Model:
         engine = PoE(robot)
         scales = _scales(robot, engine, tip, size)
         return cls(robot, engine, tip, size, tuple(bodies), tuple(parts), scales)
-
-
-def default_tip(robot: Robot) -> str:
-    """The robot's tip; of several leaves without a default the one below most joints, the first of equals."""
-    try:
-        return robot.tip
-    except AmbiguousTipError as error:
-        return max(error.leaves, key=lambda leaf: len(robot.motions_above(leaf)))
 
 
 def samples(robot: Robot, count: int, size: float, seed: int = 0) -> FloatArray:

@@ -17,7 +17,7 @@ from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray, KindLike, jacobian_kind
 from pinscrew.robot.manifold import quaternion_starts
 from pinscrew.robot.robot import Robot
-from pinscrew.view import html, mesh_files, png, scene
+from pinscrew.view import html, mesh_files, opening, png, scene
 from pinscrew.view.document import DEFAULT_DRAW, State, document
 from pinscrew.view.model import Model
 from pinscrew.view.shapes import GROUPS, Group
@@ -53,7 +53,7 @@ def begin(
     if unknown:
         raise InputError("draw", f"there is no {unknown[0]!r} to draw", remedy=f"use some of {', '.join(GROUPS)}")
     return State(
-        q=robot.neutral.copy() if q is None else vector(q, robot, "q"),
+        q=opening.configuration(robot) if q is None else vector(q, robot, "q"),
         qd=scene.default_rates(model) if qd is None else vector(qd, robot, "qd"),
         kind=jacobian_kind(kind),
         draw=tuple(draw),

@@ -25,6 +25,10 @@
     ];
   }
 
+  const SINGULAR = 1e-6; // a singular value below this part of the greatest counts as zero
+
+  const counted = (values) => values.filter((value) => value > SINGULAR * Math.max(values[0], 1e-12)).length;
+
   class Robot {
     constructor(document) {
       this.nq = document.coordinates.length;
@@ -137,16 +141,22 @@
       return position > 0 ? { rows: 3, rank: position, parts } : { rows: 6, rank: full, parts };
     }
 
-    // Yoshikawa's measure of the position (m) and of the rotation: the product of as many singular values as are not
-    // always zero, of the three rows of each; never of both at once, whose units differ (workspace/measures.py).
-    manipulability(frame, { parts }, moved) {
+    // Of the position (m) and of the rotation, of the three rows of each: the singular values that are not always zero,
+    // their product (Yoshikawa's measure), and how many are not zero now; never of both at once, whose units differ
+    // (engines/measures.py).
+    measures(frame, { parts }, moved) {
       const J = this.jacobian(frame, "body", moved);
-      const product = (rank, from) => L.singular(J.map((column) => column.slice(from, from + 3))).values
-        .slice(0, rank).reduce((all, value) => all * value, 1);
-      return {
-        position: parts.position ? product(parts.position, 0) : null,
-        rotation: parts.rotation ? product(parts.rotation, 3) : null,
+      const part = (rank, from) => {
+        const { values } = L.singular(J.map((column) => column.slice(from, from + 3)));
+        const kept = values.slice(0, rank);
+        return {
+          generic: rank,
+          manipulability: rank ? kept.reduce((all, value) => all * value, 1) : null,
+          values: kept,
+          rank: counted(kept),
+        };
       };
+      return { position: part(parts.position, 0), rotation: part(parts.rotation, 3) };
     }
 
     _rank(frame, from, to) {
@@ -162,13 +172,13 @@
 
     // The greatest singular value and the least that counts: zero where the frame loses a direction of motion.
     margin(frame, { rows, rank }, q) {
-      if (rank === 0) return { least: 0, greatest: 0 };
+      if (rank === 0) return { least: 0, greatest: 0, rank, now: 0 };
       const { values } = L.singular(this.task(frame, this.displacements(q), rows));
-      return { least: values[rank - 1], greatest: values[0] };
+      return { least: values[rank - 1], greatest: values[0], rank, now: counted(values.slice(0, rank)) };
     }
 
-    // A singular configuration not far away (limits are not looked at), by Newton's steps along the gradient of the least singular value; null
-    // if there is none near, or none was found within the milliseconds given.
+    // A singular configuration not far away (limits are not looked at), by Newton's steps along the gradient of the
+    // least singular value; null if there is none near, or none was found within the milliseconds given.
     singularityNear(frame, generic, q, milliseconds = 50) {
       const deadline = performance.now() + milliseconds;
       const least = (at) => this.margin(frame, generic, at).least;
@@ -199,5 +209,6 @@
     }
   }
 
+  Robot.SINGULAR = SINGULAR;
   ps.Robot = Robot;
 })((globalThis.pinscrew = globalThis.pinscrew || {}));

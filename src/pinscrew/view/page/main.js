@@ -110,7 +110,7 @@
         J: robot.jacobian(state.tip, state.kind, moved),
         margin: robot.margin(state.tip, this.generic, state.q),
         generic: this.generic,
-        manipulability: robot.manipulability(state.tip, this.generic, moved),
+        measures: robot.measures(state.tip, this.generic, moved),
         line: ps.twists.lineOf(twist, at, this.document.size),
       };
       this.panel.inputs();

@@ -7,22 +7,8 @@
     links: "links", frames: "frames", screws: "screw axes", velocity: "velocity",
     circles: "circles", ellipsoid: "ellipsoids", trace: "trace", workspace: "workspace",
   };
+  const { element, fixed, significant: short, Table } = ps.numbers;
   const byId = (id) => document.getElementById(id);
-
-  function element(tag, className, text) {
-    const made = document.createElement(tag);
-    if (className) made.className = className;
-    if (text !== undefined) made.textContent = text;
-    return made;
-  }
-
-  // A number with a fixed count of digits and no minus before zero.
-  function fixed(x, digits = 4) {
-    const text = x.toFixed(digits);
-    return Number(text) === 0 ? text.replace("-", "") : text;
-  }
-
-  const short = (x) => (x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5 ? x.toExponential(2) : fixed(x));
 
   // Names without the words that all begin with: columns are narrow.
   function withoutPrefix(names) {
@@ -34,45 +20,6 @@
     return names.map((name) => name.slice(shared));
   }
 
-  // A table whose cells are made once and changed in place.
-  class Table {
-    constructor(table) {
-      this.table = table;
-      this.shape = "";
-    }
-
-    fill(rows, columns, value, shown = columns) {
-      const shape = JSON.stringify([rows, columns]);
-      if (shape !== this.shape) this._make(rows, columns, shape, shown);
-      this.cells.forEach((line, i) => line.forEach((cell, j) => {
-        const text = fixed(value(i, j));
-        if (cell.textContent !== text) {
-          cell.textContent = text;
-          cell.className = Number(text) === 0 ? "zero" : "";
-        }
-      }));
-    }
-
-    _make(rows, columns, shape, shown) {
-      this.shape = shape;
-      this.table.replaceChildren();
-      if (columns.some(Boolean)) {
-        const head = this.table.createTHead().insertRow();
-        if (rows.some(Boolean)) head.appendChild(element("th"));
-        columns.forEach((name, j) => {
-          const cell = head.appendChild(element("th", "", shown[j]));
-          cell.title = name;
-        });
-      }
-      const body = this.table.createTBody();
-      this.cells = rows.map((name) => {
-        const line = body.insertRow();
-        if (name) line.appendChild(element("th", "row", name));
-        return columns.map(() => line.insertCell());
-      });
-    }
-  }
-
   class Panel {
     constructor(app) {
       this.app = app;
@@ -80,6 +27,7 @@
       byId("name").textContent = given.name;
       this.pose = new Table(byId("pose"));
       this.jacobian = new Table(byId("jacobian"));
+      this.measures = new Table(byId("measures"));
       this.columns = withoutPrefix(given.velocities);
       this.sliders = given.coordinates.map((coordinate, i) => this._coordinate(coordinate, i));
       this.rates = given.velocities.map((name, i) => this._rate(name, i));
@@ -97,10 +45,14 @@
         return bound === null ? robot.range(i)[end === "lower" ? 0 : 1] : bound;
       }));
       byId("zero").addEventListener("click", () => app.move(given.coordinates.map((c) => c.neutral)));
+      byId("start").addEventListener("click", () => app.move(given.coordinates.map((c) => c.opening)));
       byId("random").addEventListener("click", () => app.move(robot.random()));
       byId("lower").addEventListener("click", () => limits("lower"));
       byId("upper").addEventListener("click", () => limits("upper"));
       byId("frame-view").addEventListener("click", () => app.stage.frame());
+      const beside = given.coordinates.filter((c) => c.opening !== c.neutral).map((c) => c.name);
+      byId("opening").hidden = beside.length === 0;
+      byId("opening").textContent = `Zero is outside the limits of ${beside.join(", ")}: it starts in the middle of them.`;
       this.checks = new Map(given.groups.map((group) => [group, this._check(group)]));
     }
 
@@ -202,28 +154,22 @@
       for (const [group, box] of this.checks) box.checked = state.draw.has(group);
     }
 
-    numbers({ T, J, margin, generic, manipulability, line }) {
-      const { state, document: given, robot } = this.app;
+    numbers({ T, J, margin, generic, measures, line }) {
+      const { state, document: given } = this.app;
       byId("pose-title").textContent = `Pose of ${state.tip} in ${given.base}`;
       byId("jacobian-title").textContent = `${state.kind} Jacobian of ${state.tip}`;
       this.pose.fill(["", "", "", ""], ["", "", "", ""], (i, j) => T[4 * i + j]);
       const V = ROWS.map((_, r) => J.reduce((sum, column, i) => sum + column[r] * state.qd[i], 0));
       this.jacobian.fill(ROWS, [...given.velocities, "V"], (i, j) => (j < J.length ? J[j][i] : V[i]),
         [...this.columns, "V"]);
-      const { values } = L.singular(J);
-      byId("singular").textContent = values.map((x) => short(x)).join("  ") || "none";
-      const power = ["", "", "²", "³"];
-      byId("manipulability").textContent = [
-        ["position", ` m${power[generic.parts.position]}`], ["rotation", ""],
-      ].filter(([part]) => manipulability[part] !== null)
-        .map(([part, unit]) => `${part} ${short(manipulability[part] < 1e-12 ? 0 : manipulability[part])}${unit}`).join(", ") || "none";
+      ps.numbers.measures(this.measures, { parts: measures, twist: generic.rows === 6 && generic.rank ? margin : null });
       const length = L.norm(line.direction);
       byId("screw").textContent = length === 0
         ? "no motion"
         : Number.isFinite(line.pitch)
           ? `V is a screw of pitch ${short(line.pitch)} m/rad`
           : "V is a translation";
-      this.warn(margin, generic, null, robot);
+      this.warn(margin, generic, null);
     }
 
     // What is near: `found` is a singular configuration not far away, if one is known.
@@ -233,7 +179,7 @@
       let words = "", level = "";
       if (rank === 0) {
         words = "nothing moves this frame";
-      } else if (ratio < 1e-6) {
+      } else if (ratio < ps.Robot.SINGULAR) {
         words = `singular: a direction ${of} is lost`;
         level = "singular";
       } else if (found) {
@@ -262,5 +208,4 @@
   }
 
   ps.Panel = Panel;
-  ps.fixed = fixed;
 })((globalThis.pinscrew = globalThis.pinscrew || {}));
