@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -119,7 +120,7 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert len(examples) >= 8
     for example in sorted(examples):
         alone = ["--jobs", "1"] if "--map" in example else []  # processes take seconds to start
-        done = ok(*example.split()[1:], *alone)
+        done = ok(*shlex.split(example)[1:], *alone)
         written = [tmp_path / word for word in example.split() if word.endswith((".html", ".tex", ".ipynb", ".urdf"))]
         assert done.out or (written and all(path.stat().st_size for path in written)), example
 

@@ -17,6 +17,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="there is no /de
 
 FILE = "arm.urdf"
 EVERY: dict[str, list[str]] = {
+    "check": [FILE, "--quantity", "xi1", "--text", "[-0.5, 0, 0.3, 0, 1, 0]"],
     "completion": ["bash"],
     "derive": [FILE],
     "dh": [FILE],

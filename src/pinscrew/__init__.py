@@ -23,6 +23,7 @@ from pinscrew.ground.version import __version__
 if TYPE_CHECKING:
     from pinscrew import lie
     from pinscrew.changes.run import Changes, diff
+    from pinscrew.checking.run import check
     from pinscrew.derivation.run import derive
     from pinscrew.engines.base import Engine
     from pinscrew.engines.compiled.batch import Batch
@@ -68,6 +69,7 @@ __all__ = [
     "Track",
     "Trajectory",
     "__version__",
+    "check",
     "classify_singularity",
     "derive",
     "diff",
@@ -105,6 +107,7 @@ _HOMES = {
     "Sweep": "pinscrew.workspace.sweep",
     "Track": "pinscrew.motion.track",
     "Trajectory": "pinscrew.motion.trajectory",
+    "check": "pinscrew.checking.run",
     "classify_singularity": "pinscrew.motion.singularity",
     "derive": "pinscrew.derivation.run",
     "diff": "pinscrew.changes.run",

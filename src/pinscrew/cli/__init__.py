@@ -24,6 +24,7 @@ from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 __all__ = ["command", "main"]
 
 _COMMANDS: Final = {
+    "check": "pinscrew.cli.check",
     "completion": "pinscrew.cli.completion",
     "derive": "pinscrew.cli.derive",
     "dh": "pinscrew.cli.dh",

@@ -96,6 +96,8 @@ ERRORS: Final[dict[str, str]] = {
     "derive-growth": "Axes at odd angles make closed forms grow beyond 500 products of sines and cosines in one entry.",
     "derive-joint": "A floating or planar joint leads to a frame, and closed forms are asked for.",
     "read-back": "A report, once written, does not say what was proved: a mistake in pinscrew, please report it.",
+    "check-quantity": "An answer is to be checked to a quantity that there is not.",
+    "check-mimic": "An answer is to be checked of a frame that joints move which follow others.",
     "symbol-collision": "A symbol for a length has the name of another, of a joint's value, or of a sine or cosine.",
     "no-errata": "No printed coursework belongs to this robot.",
     "unwritable": "An output file can't be written.",

@@ -1,0 +1,1 @@
+"""Answers to exercises in kinematics, held against closed forms: which entry is wrong, and which slip explains it."""

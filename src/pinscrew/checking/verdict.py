@@ -1,0 +1,85 @@
+"""What `check` says of an answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from pinscrew.ground.words import brief
+from pinscrew.reporting.document import Case, Document, Problem, ResultTable, Section, Sentence, Strong
+from pinscrew.reporting.documented import Documented
+
+__all__ = ["AnswerVerdict", "VerdictData"]
+
+Place = tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class VerdictData:
+    """What was found out about one answer.
+
+    Attributes:
+        robot: the robot's name.
+        quantity: what was asked for; see `quantities.QUANTITIES`.
+        entries: rows and columns, from 1, of the entries that are wrong.
+        unread: the same of those that can't be read, each with the reason; they are neither right nor wrong.
+        slips: what explains what is wrong, in words; empty where no single slip does.
+        given: the answer's entries as they were written.
+        expected: the right ones.
+    """
+
+    robot: str
+    quantity: str
+    entries: tuple[Place, ...]
+    unread: tuple[tuple[Place, str], ...]
+    slips: tuple[str, ...]
+    given: tuple[tuple[str, ...], ...]
+    expected: tuple[tuple[str, ...], ...]
+
+    @property
+    def right(self) -> bool | None:
+        """Whether every entry is right; None where none is wrong, but some can't be read."""
+        if self.entries:
+            return False
+        return None if self.unread else True
+
+
+class AnswerVerdict(Documented, VerdictData):
+    """The verdict on one answer; ``print`` shows it."""
+
+    __slots__ = ()
+
+    def document(self) -> Document:
+        """The report in no format yet."""
+        word = {True: "right", False: "wrong", None: "can't be read in whole"}[self.right]
+        rows = []
+        reasons = dict(self.unread)
+        for i, j in sorted({*self.entries, *reasons}):
+            said = Strong("wrong") if (i, j) in self.entries else "not read"
+            rows.append((str(i), str(j), said, brief(self.given[i - 1][j - 1]), self.expected[i - 1][j - 1]))
+        lines = [Sentence(slip, "remark", "slip") for slip in self.slips]
+        if self.right is False and not self.slips:
+            lines.append(Sentence("no single slip explains it"))
+        lines += [Sentence(f"entry ({i}, {j}) is not read: {why}") for (i, j), why in self.unread]
+        problem = None if self.right else Problem("failure" if self.entries else "error", word, "check")
+        section = Section(
+            title=self.robot,
+            heading=f"{self.quantity} of {self.robot}: {word}",
+            table=ResultTable(("row", "column", "", "given", "expected"), tuple(rows)) if rows else None,
+            lines=tuple(lines),
+            cases=(Case(self.quantity, problem),),
+        )
+        return Document("pinscrew check", bool(self.right), (section,), data=self.data())
+
+    def data(self) -> dict[str, Any]:
+        """The verdict as JSON has it, schema ``pinscrew.check/1``."""
+        answer = {
+            "quantity": self.quantity,
+            "right": self.right,
+            "entries": [list(place) for place in self.entries],
+            "unread": [{"entry": list(place), "reason": why} for place, why in self.unread],
+            "slips": list(self.slips),
+            "given": [list(row) for row in self.given],
+            "expected": [list(row) for row in self.expected],
+        }
+        return {"schema": "pinscrew.check/1", "robot": self.robot, "answers": [answer]}
