@@ -30,6 +30,7 @@ EVERY: dict[str, list[str]] = {
     "screws": [FILE],
     "show": [FILE, "--html", "/dev/stdout"],
     "track": [FILE, "--profile", "profile.csv"],
+    "velocity": [FILE, "--qd", "1"],
     "verify": [FILE, "--samples", "2"],
     "workspace": [FILE, "--samples", "20"],
 }

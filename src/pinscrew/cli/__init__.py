@@ -37,6 +37,7 @@ _COMMANDS: Final = {
     "screws": "pinscrew.cli.screws",
     "show": "pinscrew.cli.show",
     "track": "pinscrew.cli.track",
+    "velocity": "pinscrew.cli.velocity",
     "verify": "pinscrew.cli.verify",
     "workspace": "pinscrew.cli.workspace",
 }

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from pinscrew.cli import arguments, output
+from pinscrew.cli import arguments, moving, output
 from pinscrew.ground import files
-from pinscrew.ground.errors import UnknownNameError
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -104,28 +103,14 @@ def command(
     elif beside := opening.beside_zero(robot):
         names = ", ".join(beside)
         click.echo(f"pinscrew: zero is outside the limits of {names}: shown in the middle of them", err=True)
-    state = prepare.begin(model, q, _rates(model, rates), draw=draw)
+    qd = None if rates is None else moving.rates(robot, rates)
+    state = prepare.begin(model, q, qd, draw=draw)
     if html_file is not None:
         output.write_file(html_file, prepare.page(model, state))
     if png_file is not None:
         files.write(png_file, prepare.picture(model, state))
     if html_file is None and png_file is None:
         ctx.exit(_serve(model, state, port, open_browser=not no_open))
-
-
-def _rates(model: Model, text: str | None) -> Any:
-    """The velocities that ``--qd`` gives, or None for the usual ones."""
-    import numpy as np
-
-    if text is None:
-        return None
-    names, units = model.robot.velocity_names, model.robot.velocity_units
-    rates = np.zeros(len(names))
-    for name, value in arguments.values_by_name(text, model.robot.name, names, units, "--qd").items():
-        if name not in names:
-            raise UnknownNameError("unknown-velocity", "velocity", name, names, where=model.robot.name)
-        rates[names.index(name)] = value
-    return rates
 
 
 def _serve(model: Model, state: State, port: int | None, *, open_browser: bool) -> int:
