@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import select
+import socket
 import stat
 import threading
 from collections.abc import Callable
@@ -191,7 +192,10 @@ def test_only_plain_files_are_read(tmp_path: Path) -> None:
     """At once, whatever it is: opening a pipe for reading waits for a writer, and /dev/zero never ends."""
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    for path in (pipe, Path("/dev/zero"), tmp_path):
+    door = tmp_path / "socket"
+    with socket.socket(socket.AF_UNIX) as listening:
+        listening.bind(str(door))
+    for path in (pipe, door, Path("/dev/zero"), tmp_path):
         with pytest.raises(OSError, match=r"plain file|directory"):
             files.open_plain(path)
     plain = tmp_path / "plain"

@@ -17,6 +17,7 @@ __all__ = ["append", "open_plain", "write"]
 
 _STREAM: Final = re.compile("/dev/(?:(stdout|stderr)|fd/([0-9]{1,9}))")
 """An open stream, which may be a file that is not to be replaced: another process may hold it too."""
+_NOT_PLAIN: Final = "it is no plain file"
 _NUMBERS: Final = {"stdout": 1, "stderr": 2}
 
 
@@ -27,10 +28,15 @@ def open_plain(path: Path) -> BinaryIO:
         OSError: if it can't be opened, or is something else.
         ValueError: if there is a NUL character in the path.
     """
-    stream = open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK))  # noqa: SIM115 (the caller closes it)
+    try:
+        stream = open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK))  # noqa: SIM115
+    except OSError as error:
+        if error.errno == errno.ENXIO:  # a socket
+            raise OSError(errno.EINVAL, _NOT_PLAIN) from None
+        raise
     if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
         stream.close()
-        raise OSError(errno.EINVAL, "it is no plain file")
+        raise OSError(errno.EINVAL, _NOT_PLAIN)
     return stream
 
 
