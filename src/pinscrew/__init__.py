@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from pinscrew.changes.run import Changes, diff
     from pinscrew.checking.run import check
     from pinscrew.derivation.run import derive
+    from pinscrew.dh.robots import from_dh
     from pinscrew.engines.base import Engine
     from pinscrew.engines.compiled.batch import Batch
     from pinscrew.engines.pinocchio import Pinocchio
@@ -74,6 +75,7 @@ __all__ = [
     "derive",
     "diff",
     "find_singularities",
+    "from_dh",
     "ik",
     "integrate",
     "inverse_velocity",
@@ -112,6 +114,7 @@ _HOMES = {
     "derive": "pinscrew.derivation.run",
     "diff": "pinscrew.changes.run",
     "find_singularities": "pinscrew.motion.singularities",
+    "from_dh": "pinscrew.dh.robots",
     "ik": "pinscrew.motion.inverse_kinematics",
     "integrate": "pinscrew.motion.integration",
     "inverse_velocity": "pinscrew.motion.inverse_velocity",

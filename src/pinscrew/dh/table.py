@@ -23,7 +23,7 @@ from pinscrew.lie import se3
 from pinscrew.robot.mechanism import JointMotion
 from pinscrew.robot.robot import Robot
 
-__all__ = ["Convention", "DHRow", "DHTable", "dh_table"]
+__all__ = ["Convention", "DHRow", "DHTable", "about_z", "along_x", "check_convention", "dh_table"]
 
 Convention = Literal["standard", "modified"]
 
@@ -87,7 +87,7 @@ class DHTable:
         for row in self.rows:
             value = row.multiplier * q[row.coordinate]
             theta, d = (row.theta, row.d + value) if row.prismatic else (row.theta + value, row.d)
-            Z, X = _about_z(theta, d), _along_x(row.a, row.alpha, row.beta)
+            Z, X = about_z(theta, d), along_x(row.a, row.alpha, row.beta)
             T = T @ Z @ X if self.convention == "standard" else T @ X @ Z
         return T @ self.T_n_tool
 
@@ -113,8 +113,7 @@ def dh_table(
         InputError: if nothing moves the tip, a floating or planar joint does, or there is no such convention.
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
     """
-    if convention not in ("standard", "modified"):
-        raise InputError("dh-convention", f"convention={convention!r}", remedy="use 'standard' or 'modified'")
+    check_convention(convention)
     tip = robot.frame(tip)
     motions = [robot.mechanism.motions[i] for i in robot.motions_above(tip)]
     for motion in motions:
@@ -131,7 +130,7 @@ def dh_table(
     steps: list[tuple[float, float, float, float, float]] = []
     for direction, point in after:
         step = _step(frame, direction, point, last=len(steps) == len(lines) - 1)
-        frame = frame @ _about_z(*step[:2]) @ _along_x(*step[2:])
+        frame = frame @ about_z(*step[:2]) @ along_x(*step[2:])
         steps.append(step)
     if convention == "modified":  # the same steps, each row with what comes before its Z
         zs, xs = [*(s[:2] for s in steps), (0.0, 0.0)], [(0.0, 0.0, 0.0), *(s[2:] for s in steps)]
@@ -143,6 +142,16 @@ def dh_table(
     T_n_tool = se3.inverse(frame) @ tool
     T_n_tool[abs(T_n_tool) < ROUNDING] = 0.0
     return DHTable(robot.name, base or robot.base, tip, convention, rows, start, T_n_tool)
+
+
+def check_convention(convention: str) -> None:
+    """Refuse what is no convention.
+
+    Raises:
+        InputError: if it is neither standard nor modified.
+    """
+    if convention not in ("standard", "modified"):
+        raise InputError("dh-convention", f"convention={convention!r}", remedy="use 'standard' or 'modified'")
 
 
 def _line(motion: JointMotion, T_reference_base: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -207,14 +216,15 @@ def _length(value: float) -> float:
     return exact + 0.0 if abs(value - exact) < SNAP else value
 
 
-def _about_z(theta: float, d: float) -> FloatArray:
+def about_z(theta: float, d: float) -> FloatArray:
+    """Rz(θ) Tz(d), shape (4, 4); rad, m."""
     c, s = math.cos(theta), math.sin(theta)
     return np.array([[c, -s, 0.0, 0.0], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, d], [0.0, 0.0, 0.0, 1.0]])
 
 
-def _along_x(a: float, alpha: float, beta: float) -> FloatArray:
+def along_x(a: float, alpha: float, beta: float) -> FloatArray:
+    """Tx(a) Rx(α) Ry(β), shape (4, 4); m, rad, rad."""
     ca, sa, cb, sb = math.cos(alpha), math.sin(alpha), math.cos(beta), math.sin(beta)
-    # Tx(a) Rx(α) Ry(β)
     return np.array(
         [[cb, 0.0, sb, a], [sa * sb, ca, -sa * cb, 0.0], [-ca * sb, sa, ca * cb, 0.0], [0.0, 0.0, 0.0, 1.0]]
     )

@@ -80,6 +80,7 @@ ERRORS: Final[dict[str, str]] = {
     "quaternion": "The quaternion of a floating joint does not have norm 1.",
     "jacobian-kind": "There is no such kind of Jacobian.",
     "dh-convention": "There is no such convention of Denavit-Hartenberg tables.",
+    "dh-table": "A Denavit-Hartenberg table has not four finite numbers in each row, or not one letter for each joint.",
     "dh-joint": "A floating or planar joint moves the frame whose table is asked for, or none does.",
     "at": "Screw axes are asked for at what is neither space nor body.",
     "reference": "A reference frame moves, or is given for body axes.",
