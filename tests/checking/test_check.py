@@ -8,7 +8,11 @@ import pytest
 
 import pinscrew as ps
 from command_line import run
+from pinscrew.checking.meanings import Meanings, given
+from pinscrew.checking.scope import NoValueError, Scope
 from pinscrew.checking.verdict import AnswerVerdict
+from pinscrew.derivation.errata_entries import errata
+from pinscrew.mathtext import read_plain, symbols
 
 SPHERICAL = ps.load("spherical")
 TWO = ps.load("two_joint")
@@ -101,6 +105,55 @@ def test_one_hypothesis_on_the_whole() -> None:
     assert wrong("Js", column).slips == ("the sign of column 2",)
     assert wrong("p", ["1", "2", "c1"]).slips == ()
     assert "no single slip explains it" in str(wrong("p", ["1", "2", "c1"]))
+
+
+@pytest.mark.parametrize(
+    ("cell", "slip"),
+    [
+        ("L0 - (L3 + d3)*c2", "c2 for s2"),
+        ("L0 - (L3 + d3)*cos(q2)", "cos(q2) for sin(q2)"),
+        ("L0 - (L3 + d3)*s1", "s1 for s2"),
+        ("L0 + (L3 + d3)*s2", "the sign of (L3 + d3)*s2"),
+        ("L0 - (L3 - d3)*s2", "the sign of d3"),
+        ("L3 - (L3 + d3)*s2", "L3 for L0"),
+        ("L0 - (L3 + d3)", "the factor s2 of L3 + d3 is missing"),
+        ("L0 - L3*s2", "a term theta3 beside L3 is missing"),
+        ("-(L3 + d3)*s2", "a term -L0 beside (L3 + d3)*s2 is missing"),
+        ("L0 - (L3 + d3)*s2*c1", "the factor c1 is too many"),
+        ("L0 - (L3 + d3)*s2 - L3", "the term -L3 is too many"),
+        ("L0 - (L3 + dq3)*s2", "dq3 for theta3"),
+        ("(L3 + d3)*c1*c2", "what is due at (2, 1) stands here"),
+    ],
+)
+def test_one_change_of_an_entry(cell: str, slip: str) -> None:
+    text = f"[-(L3 + d3)*s1*c2, (L3 + d3)*c1*c2, {cell}]"
+    verdict = wrong("p", text)
+    assert verdict.entries == ((3, 1),)
+    assert verdict.slips == (f"entry (3, 1): {slip}",)
+
+
+def test_a_sum_of_angles_is_short() -> None:
+    verdict = wrong("p", "[l1*c1 + l2*c2, l1*s1 + l2*s12, -d3]", SCARA)
+    assert verdict.slips == ("entry (1, 1): c2 for c12",)
+    dotted = ["l0*q1 + (l0 + l1*c1)*dq2", "l1*s1*dq2", 0, 0, 0, "dq1 + dq2"]
+    assert wrong("Vs", dotted, TWO).slips == ("entry (1, 1): q1 for dtheta1",)
+
+
+@pytest.mark.slow
+def test_every_printed_mistake_that_is_read_is_located() -> None:
+    """The lists of the courseworks: what both engines refute is never called right here, whatever can't be read."""
+    located, unread = 0, []
+    for erratum in errata():
+        derivation = ps.derive(erratum.robot)
+        scope, meanings = Scope(derivation), Meanings(derivation)
+        printed, right = read_plain(erratum.printed), read_plain(erratum.right)
+        known = given(set(symbols(printed) | symbols(right)), meanings, scope, {})
+        try:
+            assert scope.value(printed, known) != scope.value(right, known), erratum
+            located += 1
+        except NoValueError as error:
+            unread.append((erratum.printed, str(error)))
+    assert (located, len(unread)) == (89, 7), unread
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from pinscrew.checking.edits import edits, symbol_names
 from pinscrew.checking.meanings import Meanings, given
 from pinscrew.checking.quantities import quantity_key, right_form
 from pinscrew.checking.scope import NoValueError, Quotient, Scope
@@ -13,6 +14,7 @@ from pinscrew.checking.texts import Assigned, Written, written
 from pinscrew.checking.verdict import AnswerVerdict
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.run import derive
+from pinscrew.derivation.trig import Element
 from pinscrew.ground.errors import InputError, UnsupportedError
 from pinscrew.mathtext import Node, Operation, Symbol, read_latex, read_plain, symbols
 from pinscrew.robot.loading import RobotLike
@@ -135,7 +137,14 @@ def _verdict(derivation: Derivation, key: str, matrix: Written, definitions: Map
     found: tuple[str, ...] = ()
     if wrong and not unread:
         both = range(1, right.shape[0] + 1), range(1, right.shape[1] + 1)
-        found = slips(derivation, scope, key, [[values[i, j] for j in both[1]] for i in both[0]], due)
+        names = set(symbol_names(derivation))
+        known |= given(names - set(known), meanings, scope, {})
+
+        def explain(i: int, j: int) -> str:
+            words = _one_change(scope, nodes[i + 1, j + 1], due[i][j], known, symbol_names(derivation))
+            return words or _copied(values[i + 1, j + 1], due)
+
+        found = slips(derivation, scope, key, [[values[i, j] for j in both[1]] for i in both[0]], due, explain)
     expected = derivation.write(right)
     return AnswerVerdict(
         robot=derivation.robot.name,
@@ -146,6 +155,26 @@ def _verdict(derivation: Derivation, key: str, matrix: Written, definitions: Map
         given=matrix.rows,
         expected=tuple(tuple(str(x) for x in row) for row in expected.tolist()),
     )
+
+
+def _one_change(scope: Scope, node: Node, due: Quotient, known: Mapping[str, Element], names: tuple[str, ...]) -> str:
+    """The first change of a formula that makes it right, in words."""
+    for words, changed in edits(node, names):
+        try:
+            if scope.value(changed, known) == due:
+                return words
+        except NoValueError:
+            continue
+    return ""
+
+
+def _copied(value: Quotient, due: list[list[Quotient]]) -> str:
+    """Which other entry's right form stands there; nothing of 0, which is everywhere."""
+    for i, row in enumerate(due, 1):
+        for j, other in enumerate(row, 1):
+            if value.over and value == other:
+                return f"what is due at ({i}, {j}) stands here"
+    return ""
 
 
 def _unsigned(matrix: Written) -> Written:

@@ -13,6 +13,8 @@ from pinscrew.derivation.derivation import Derivation
 __all__ = ["slips"]
 
 Values: TypeAlias = list[list[Quotient]]
+Explain: TypeAlias = Callable[[int, int], str]
+"""What is wrong with the entry of a row and column, from 0, in words; or ``""``."""
 
 _OTHERS: Final = {
     "Js": ("Jb", "Jh"),
@@ -27,8 +29,10 @@ _OTHERS: Final = {
 _SWAPPED: Final = (3, 4, 5, 0, 1, 2)
 
 
-def slips(derivation: Derivation, scope: Scope, key: str, given: Values, right: Values) -> tuple[str, ...]:
-    """In words, the slip that explains the whole answer; else one for each entry that is wrong only by its sign.
+def slips(
+    derivation: Derivation, scope: Scope, key: str, given: Values, right: Values, explain: Explain
+) -> tuple[str, ...]:
+    """In words, the slip that explains the whole answer; else one change in each entry that is wrong.
 
     Args:
         derivation: the closed forms.
@@ -36,6 +40,7 @@ def slips(derivation: Derivation, scope: Scope, key: str, given: Values, right: 
         key: the quantity.
         given: the values of the answer.
         right: the right ones, of the same shape.
+        explain: finds the one change of an entry.
     """
     for words, hypothesis in _wholes(derivation, scope, key, right):
         if hypothesis() == given:
@@ -48,6 +53,8 @@ def slips(derivation: Derivation, scope: Scope, key: str, given: Values, right: 
             wrong += 1
             if mine == _negated(theirs):
                 found.append(f"the sign of entry ({i}, {j})")
+            elif words := explain(i - 1, j - 1):
+                found.append(f"entry ({i}, {j}): {words}")
     return tuple(found) if len(found) == wrong else ()
 
 
