@@ -16,7 +16,19 @@ from pinscrew.view.document import Json
 
 __all__ = ["page", "viewer_script"]
 
-SCRIPTS: Final = ("linear", "kinematics", "twists", "shapes", "tree", "stage", "numbers", "panel", "live", "main")
+SCRIPTS: Final = (
+    "linear",
+    "kinematics",
+    "twists",
+    "shapes",
+    "tree",
+    "stage",
+    "numbers",
+    "dialect",
+    "panel",
+    "live",
+    "main",
+)
 """In the order in which they need each other."""
 
 

@@ -63,8 +63,8 @@
       title.title = coordinate.name;
       const unit = element("span", "unit");
       const value = element("input", "value");
-      value.type = "number";
-      value.step = "any";
+      value.type = "text";
+      value.autocomplete = "off";
       value.setAttribute("aria-label", coordinate.name);
       const slider = element("input");
       slider.type = "range";
@@ -84,9 +84,17 @@
         if (text !== "" && Number.isFinite(x)) app.moveOne(i, x);
       };
       slider.addEventListener("input", () => change(slider.value));
-      value.addEventListener("change", () => change(value.value));
+      const needed = coordinate.angle ? "rad" : /\.q[xyzw]$/.test(coordinate.name) ? "" : "m";
+      const error = element("p", "error");
+      error.setAttribute("role", "alert");
+      value.addEventListener("change", () => {
+        const { x, error: what } = ps.dialect.number(value.value, needed);
+        error.textContent = what || "";
+        value.setAttribute("aria-invalid", String(Boolean(what)));
+        if (!what) app.moveOne(i, x);
+      });
       const rate = element("span", "rate");
-      row.append(title, value, rate, slider, ends);
+      row.append(title, value, rate, error, slider, ends);
       byId("coordinates").appendChild(row);
       return { row, unit, value, slider, rate, coordinate };
     }
