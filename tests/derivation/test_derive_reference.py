@@ -103,5 +103,7 @@ def test_no_such_frame() -> None:
 def test_on_the_command_line() -> None:
     words = ok("derive", "scara", "--from", "link1", "--tip", "link2", "--part", "T", "--samples", "2").out
     assert "The motion of the frame `link2` in `link1`." in words
+    same = ok("derive", "scara", "--reference", "link1", "--tip", "link2", "--part", "T", "--samples", "2").out
+    assert same == words
     code = ok("derive", "scara", "--from", "tool", "--tip", "base", "--code", "python", "--samples", "2").out
     assert "frame base in frame tool" in code

@@ -32,6 +32,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 @arguments.tip_option
 @click.option(
     "--from",
+    "--reference",
     "reference",
     metavar="FRAME",
     help="The frame in which it moves: another choice of frame 0, or any link; by default the base.",
