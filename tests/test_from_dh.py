@@ -53,6 +53,9 @@ def test_a_robot_through_its_table_and_back(convention):
     ("rows", "more", "words"),
     [
         ([], {}, "0 rows"),
+        (5, {}, "not int"),
+        ("1234", {}, "not str"),
+        (np.zeros((1001, 4)), {}, "1001 rows"),
         ([(0.0, 0.0, 0.0)], {}, "row 1"),
         ([(0.0, 0.0, 0.0, float("nan"))], {}, "row 1"),
         (["1234"], {}, "row 1"),

@@ -21,7 +21,9 @@ PARAMETERS: Final = ("theta", "d", "a", "alpha")
 MOST_ROWS: Final = 1000
 
 
-def from_dh(table: Sequence[Sequence[float] | Mapping[str, Any]], *, convention: Convention, joints: str = "") -> Robot:
+def from_dh(
+    table: Sequence[Sequence[float] | Mapping[str, Any]] | FloatArray, *, convention: Convention, joints: str = ""
+) -> Robot:
     """The robot of a Denavit-Hartenberg table, with links ``base``, ``link1``, … and ``tool``.
 
     Standard rows are Aᵢ = Rz(θᵢ) Tz(dᵢ) Tx(aᵢ) Rx(αᵢ) (Spong, Hutchinson, Vidyasagar, eq. 3.10), modified ones
@@ -39,8 +41,7 @@ def from_dh(table: Sequence[Sequence[float] | Mapping[str, Any]], *, convention:
             ``joints`` does not fit.
     """
     check_convention(convention)
-    if not 1 <= len(table) <= MOST_ROWS:
-        raise InputError("dh-table", f"a table of {len(table)} rows", remedy=f"give 1 to {MOST_ROWS}")
+    _check_table(table)
     rows = [_row(row, i) for i, row in enumerate(table, 1)]
     kinds = joints or "R" * len(rows)
     if len(kinds) != len(rows) or set(kinds) - set("RP"):
@@ -56,6 +57,19 @@ def from_dh(table: Sequence[Sequence[float] | Mapping[str, Any]], *, convention:
         parent = f"link{i}"
     parts += _joint("tool_joint", "fixed", parent, "tool", before)
     return Robot.from_description(urdf.parse("\n".join([*parts, "</robot>"]), "DH table"), tip="tool")
+
+
+def _check_table(table: Any) -> None:
+    """Refuse what is no list of rows.
+
+    Raises:
+        InputError: if it is none, or has no row or more than 1000.
+    """
+    if not isinstance(table, Sequence | np.ndarray) or isinstance(table, str):
+        what = f"a table is a list of rows, not {type(table).__name__}"
+        raise InputError("dh-table", what, remedy="give rows of θ, d, a, α (rad, m, m, rad)")
+    if not 1 <= len(table) <= MOST_ROWS:
+        raise InputError("dh-table", f"a table of {len(table)} rows", remedy=f"give 1 to {MOST_ROWS}")
 
 
 def _row(row: Any, number: int) -> tuple[float, ...]:
