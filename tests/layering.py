@@ -19,7 +19,7 @@ FLOORS = (
     {"witnesses"},
     {"verification", "derivation"},
     {"changes", "checking", "dh"},
-    {"lockfile", "motion"},
+    {"identification", "lockfile", "motion"},
     {"workspace"},
     {"view"},
     {""},  # the package itself, which names what it offers and loads it when it is used

@@ -31,6 +31,11 @@ IN_GIT = {
     "pinscrew diff main:./arm.urdf.xacro arm.urdf.xacro --tolerance-mm 0.01",
 }
 """Examples that need a git repository; `tests/changes` runs such."""
+MEASURED = {
+    "pinscrew identify scara -q 0.3,0.5,0.1 --matrix J.csv",
+    "pinscrew identify scara --samples samples.npz --json",
+}
+"""Examples that need somebody's numbers; `tests/identification` runs such."""
 
 
 def loaded(text: str) -> Any:
@@ -116,7 +121,7 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     file.write_text(urdfs.rotated())
     lines = [line.strip() for name in _COMMANDS for line in ok(name, "--help").out.splitlines()]
     lines += [line.strip() for line in ok("--help").out.splitlines()]
-    examples = {line for line in lines if line.startswith("pinscrew ")} - SLOW - SHOWN - IN_GIT
+    examples = {line for line in lines if line.startswith("pinscrew ")} - SLOW - SHOWN - IN_GIT - MEASURED
     assert len(examples) >= 8
     for example in sorted(examples):
         alone = ["--jobs", "1"] if "--map" in example else []  # processes take seconds to start

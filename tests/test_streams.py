@@ -7,9 +7,11 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import limited
+import pinscrew as ps
 import urdfs
 from pinscrew.cli import _COMMANDS, BROKEN_PIPE
 
@@ -24,6 +26,7 @@ EVERY: dict[str, list[str]] = {
     "diff": [FILE, FILE],
     "expand": [FILE],
     "fk": [FILE],
+    "identify": [FILE, "-q", "0.3", "--matrix", "T.txt"],
     "jacobian": [FILE, "--kind", "body"],
     "list": [],
     "lock": [FILE, "--check"],
@@ -47,6 +50,7 @@ def server() -> Iterator[limited.Server]:
 def folder(tmp_path_factory: pytest.TempPathFactory, server: limited.Server) -> Path:
     folder = tmp_path_factory.mktemp("streams")
     (folder / FILE).write_text(urdfs.single_revolute())
+    np.savetxt(folder / "T.txt", ps.Pinocchio(ps.load(folder / FILE)).fk([0.3]))
     (folder / "profile.csv").write_text("t,j\n0,0\n0.1,1\n")
     assert server.run("lock", FILE, folder=folder).status == 0
     return folder
@@ -81,7 +85,7 @@ def test_closed(command: str, server: limited.Server, folder: Path) -> None:
     result = server.run(command, *EVERY[command], folder=folder, streams={1: "closed"})
     assert result.status == 0, result
     assert "Traceback" not in result.stderr
-    assert sorted(path.name for path in folder.iterdir()) == sorted((FILE, f"{FILE}.lock", "profile.csv"))
+    assert sorted(path.name for path in folder.iterdir()) == sorted((FILE, f"{FILE}.lock", "T.txt", "profile.csv"))
 
 
 @pytest.mark.parametrize("command", [command for command in EVERY if command not in SILENT])

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from pinscrew.engines.pinocchio import Pinocchio
     from pinscrew.engines.poe import PoE
     from pinscrew.ground.errors import PinscrewError, PinscrewWarning
+    from pinscrew.identification.outcome import Identified
+    from pinscrew.identification.run import identify
     from pinscrew.lie.screw import Screw
     from pinscrew.motion.integration import integrate
     from pinscrew.motion.inverse_kinematics import Solution, ik
@@ -54,6 +56,7 @@ __all__ = [
     "Batch",
     "Changes",
     "Engine",
+    "Identified",
     "InverseVelocity",
     "Pinocchio",
     "PinscrewError",
@@ -76,6 +79,7 @@ __all__ = [
     "diff",
     "find_singularities",
     "from_dh",
+    "identify",
     "ik",
     "integrate",
     "inverse_velocity",
@@ -94,6 +98,7 @@ _HOMES = {
     "Batch": "pinscrew.engines.compiled.batch",
     "Changes": "pinscrew.changes.run",
     "Engine": "pinscrew.engines.base",
+    "Identified": "pinscrew.identification.outcome",
     "InverseVelocity": "pinscrew.motion.inverse_velocity",
     "Pinocchio": "pinscrew.engines.pinocchio",
     "PinscrewError": "pinscrew.ground.errors",
@@ -115,6 +120,7 @@ _HOMES = {
     "diff": "pinscrew.changes.run",
     "find_singularities": "pinscrew.motion.singularities",
     "from_dh": "pinscrew.dh.robots",
+    "identify": "pinscrew.identification.run",
     "ik": "pinscrew.motion.inverse_kinematics",
     "integrate": "pinscrew.motion.integration",
     "inverse_velocity": "pinscrew.motion.inverse_velocity",

@@ -31,6 +31,7 @@ _COMMANDS: Final = {
     "diff": "pinscrew.cli.diff",
     "expand": "pinscrew.cli.expand",
     "fk": "pinscrew.cli.fk",
+    "identify": "pinscrew.cli.identify",
     "jacobian": "pinscrew.cli.jacobian",
     "list": "pinscrew.cli.list_robots",
     "lock": "pinscrew.cli.lock",

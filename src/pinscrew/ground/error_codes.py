@@ -75,6 +75,8 @@ ERRORS: Final[dict[str, str]] = {
     "ambiguous-tip": "The robot has several leaves, so a tip must be named.",
     # Arguments of calls
     "shape": "An array has another shape than expected.",
+    "not-identified": "The convention of an array is ambiguous, or none that is known.",
+    "samples-file": "A file holds no samples that can be read: no archive of plain arrays, or no table of numbers.",
     "not-numbers": "A value is not an array of numbers.",
     "not-finite": "An array holds NaN or infinity.",
     "quaternion": "The quaternion of a floating joint does not have norm 1.",

@@ -1,0 +1,1 @@
+"""Which convention is this matrix in?"""

@@ -1,0 +1,89 @@
+"""Who looks: the point whose velocity is meant, and the frame in which it is written down."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from pinscrew.engines.base import Engine
+from pinscrew.ground.errors import AmbiguousTipError
+from pinscrew.ground.typing import FloatArray
+from pinscrew.robot.robot import Robot
+
+__all__ = ["Observer", "moving", "observed", "observers"]
+
+MIXED: Final = 16
+"""At most so many frames for each to be tried with the axes of each other."""
+
+
+@dataclass(frozen=True)
+class Observer:
+    """How a twist of a frame is written down.
+
+    Attributes:
+        frame: whose motion it is.
+        point: the frame whose origin the linear part is the velocity of: ``frame``, or the base for ``"spatial"``.
+        base: the frame whose axes it is written in.
+    """
+
+    frame: str
+    point: str
+    base: str
+    root: str
+
+    @property
+    def kind(self) -> str:
+        """``"spatial"``, ``"body"``, ``"hybrid"``, or ``"mixed"`` where the axes are of yet another frame."""
+        if self.point == self.root and self.point != self.frame:
+            return "spatial" if self.base == self.root else "mixed"
+        return "body" if self.base == self.frame else "hybrid" if self.base == self.root else "mixed"
+
+    @property
+    def words(self) -> str:
+        """What it is called."""
+        called = {"spatial": "Pinocchio WORLD", "body": "Pinocchio LOCAL", "hybrid": "Pinocchio LOCAL_WORLD_ALIGNED"}
+        if self.kind in called:
+            return f"the {self.kind} {{}} of {self.frame} ({called[self.kind]})"
+        return f"the {{}} of {self.frame} at the origin of {self.point}, in the axes of {self.base}"
+
+
+def moving(robot: Robot) -> list[str]:
+    """The frames that move: the default tip first, if there is one, then those that more joints move."""
+    frames = [name for name in robot.frame_names[::-1] if robot.motions_above(name)]
+    try:
+        tip = robot.tip
+    except AmbiguousTipError:
+        tip = ""
+    return sorted(frames, key=lambda name: (name != tip, -len(robot.motions_above(name))))
+
+
+def observers(robot: Robot) -> Iterator[Observer]:
+    """All that are tried, the plainest first: the last frame, then those before it; axes of other frames at the end."""
+    root = robot.base
+    frames = moving(robot)
+    for frame in frames:
+        for point, base in ((root, root), (frame, frame), (frame, root)):
+            yield Observer(frame, point, base, root)
+    if len(frames) <= MIXED:
+        for frame in frames:
+            yield from (Observer(frame, frame, base, root) for base in frames if base != frame)
+
+
+def observed(engine: Engine, observer: Observer, q: FloatArray) -> FloatArray:
+    """The Jacobian as an observer has it, rows (v, ω); shape (N, 6, nv).
+
+    Columns of a hybrid Jacobian turned into the axes of a frame G: diag(R_base_Gᵀ, R_base_Gᵀ) Jʰ (MLS 2.58, p = 0).
+    """
+    if observer.kind == "spatial":
+        return np.asarray(engine.jacobian(q, observer.frame, "spatial"))
+    if observer.kind == "body":
+        return np.asarray(engine.jacobian(q, observer.frame, "body"))
+    J = np.asarray(engine.jacobian(q, observer.frame, "hybrid"))
+    if observer.kind == "hybrid":
+        return J
+    R_base_axes = np.asarray(engine.fk(q, observer.base))[:, :3, :3]
+    turned = np.swapaxes(R_base_axes, -1, -2)
+    return np.concatenate([turned @ J[:, :3], turned @ J[:, 3:]], axis=1)
