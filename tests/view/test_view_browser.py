@@ -346,6 +346,21 @@ def test_columns_are_named_without_what_all_names_begin_with(open_page: Open, tm
         assert [head for head in heads if head in expected] == expected
 
 
+@pytest.mark.parametrize("name", some("ur5_robot", "panda"))
+def test_the_twist_stays_in_sight(name: str, open_page: Open, tmp_path: Path) -> None:
+    """However many columns there are; a laptop's screen has all of six joints."""
+    page = open_page(saved(model_of(name), tmp_path))
+    page.set_viewport_size({"width": 1280, "height": 800})
+    ends = page.evaluate(
+        "[...document.querySelectorAll('#jacobian tr')].map(row => row.lastElementChild.getBoundingClientRect().right)"
+    )
+    assert max(ends) <= 1280.0
+    wide, room = page.evaluate(
+        "(box => [box.scrollWidth, box.clientWidth])(document.querySelector('#jacobian').closest('.scroll'))"
+    )
+    assert wide <= room or name == "panda"
+
+
 def test_an_animation_plays_to_its_end(open_page: Open) -> None:
     model = model_of("two_joint")
     with View(model, prepare.begin(model), 17600) as view:
