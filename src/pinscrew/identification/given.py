@@ -58,7 +58,7 @@ def samples(robot: Robot, q: ArrayLike, given: Sequence[ArrayLike]) -> GivenSamp
     at = _finite(q, "q")
     if at.ndim not in (1, 2) or at.shape[-1] != robot.nq or not at.size:
         remedy = f"{robot.name} takes {robot.nq} coordinates: ({robot.nq},) or (N, {robot.nq}), N at least 1"
-        raise InputError("array-shape", f"q has the shape {at.shape}", where=_WHERE, remedy=remedy)
+        raise InputError("shape", f"q has the shape {at.shape}", where=_WHERE, remedy=remedy)
     lead = at.shape[:-1]
     at = at.reshape(-1, robot.nq)
     if len(given) == 2:
@@ -68,12 +68,12 @@ def samples(robot: Robot, q: ArrayLike, given: Sequence[ArrayLike]) -> GivenSamp
         return GivenSamples("twist", at, twist.reshape(-1, 6), qd.reshape(-1, robot.nv))
     if len(given) != 1:
         what = f"{len(given)} arrays are given beside q"
-        raise InputError("array-shape", what, where=_WHERE, remedy="give one, or rates and twists")
+        raise InputError("shape", what, where=_WHERE, remedy="give one, or rates and twists")
     values = _finite(given[0], "the array")
     shape = values.shape[len(lead) :]
     if values.shape[: len(lead)] != lead or not values.size or not _known(shape):
         what = f"the array has the shape {values.shape} for q of the shape {(*lead, robot.nq)}"
-        raise InputError("array-shape", what, where=_WHERE, remedy=_SHAPES)
+        raise InputError("shape", what, where=_WHERE, remedy=_SHAPES)
     quantity: Quantity = "jacobian" if len(shape) == 2 and 6 in shape else "pose"
     return GivenSamples(quantity, at, values.reshape(-1, *shape))
 
@@ -108,4 +108,4 @@ def _finite(value: ArrayLike, name: str) -> FloatArray:
 def _check(array: FloatArray, shape: tuple[int, ...], name: str) -> None:
     if array.shape != shape:
         what = f"{name} has the shape {array.shape}"
-        raise InputError("array-shape", what, where=_WHERE, remedy=f"expected {shape}")
+        raise InputError("shape", what, where=_WHERE, remedy=f"expected {shape}")

@@ -27,12 +27,15 @@ class Observer:
         frame: whose motion it is.
         point: the frame whose origin the linear part is the velocity of: ``frame``, or the base for ``"spatial"``.
         base: the frame whose axes it is written in.
+        root: the robot's base.
+        offset: where the point stands in ``point``, m: a tool that the file does not know.
     """
 
     frame: str
     point: str
     base: str
     root: str
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @property
     def kind(self) -> str:
@@ -45,6 +48,9 @@ class Observer:
     def words(self) -> str:
         """What it is called."""
         called = {"spatial": "Pinocchio WORLD", "body": "Pinocchio LOCAL", "hybrid": "Pinocchio LOCAL_WORLD_ALIGNED"}
+        if any(self.offset):
+            at = ", ".join(f"{value:.6g}" for value in self.offset)
+            return f"the {self.kind} {{}} of the point ({at}) m in {self.frame}"
         if self.kind in called:
             return f"the {self.kind} {{}} of {self.frame} ({called[self.kind]})"
         return f"the {{}} of {self.frame} at the origin of {self.point}, in the axes of {self.base}"
@@ -75,15 +81,25 @@ def observers(robot: Robot) -> Iterator[Observer]:
 def observed(engine: Engine, observer: Observer, q: FloatArray) -> FloatArray:
     """The Jacobian as an observer has it, rows (v, ω); shape (N, 6, nv).
 
-    Columns of a hybrid Jacobian turned into the axes of a frame G: diag(R_base_Gᵀ, R_base_Gᵀ) Jʰ (MLS 2.58, p = 0).
+    A point p that moves with the frame has the velocity v + ω × p (MLS eq. 2.53), p in the axes of v. Columns of a
+    hybrid Jacobian turned into the axes of a frame G: diag(R_base_Gᵀ, R_base_Gᵀ) Jʰ (MLS eq. 2.58, p = 0).
     """
     if observer.kind == "spatial":
         return np.asarray(engine.jacobian(q, observer.frame, "spatial"))
     if observer.kind == "body":
-        return np.asarray(engine.jacobian(q, observer.frame, "body"))
+        return _moved(np.asarray(engine.jacobian(q, observer.frame, "body")), np.array(observer.offset))
     J = np.asarray(engine.jacobian(q, observer.frame, "hybrid"))
-    if observer.kind == "hybrid":
+    if observer.kind == "hybrid" and not any(observer.offset):
         return J
+    if observer.kind == "hybrid":
+        R_base_frame = np.asarray(engine.fk(q, observer.frame))[:, :3, :3]
+        return _moved(J, R_base_frame @ np.array(observer.offset))
     R_base_axes = np.asarray(engine.fk(q, observer.base))[:, :3, :3]
     turned = np.swapaxes(R_base_axes, -1, -2)
     return np.concatenate([turned @ J[:, :3], turned @ J[:, 3:]], axis=1)
+
+
+def _moved(J: FloatArray, point: FloatArray) -> FloatArray:
+    """Columns of a point beside the frame's origin; ``point`` has the shape (3,) or (N, 3)."""
+    linear = J[:, :3] + np.cross(J[:, 3:], point[..., :, None], axisa=1, axisb=-2, axisc=1)
+    return np.concatenate([linear, J[:, 3:]], axis=1)

@@ -17,8 +17,9 @@ from pinscrew.identification.encodings import Encoding, encodings
 from pinscrew.identification.given import GivenSamples, samples, tolerances
 from pinscrew.identification.observers import moving, observed, observers
 from pinscrew.identification.outcome import Candidate, Identified
+from pinscrew.identification.points import movable
 from pinscrew.identification.writings import UNITS, Writing, columns
-from pinscrew.robot.loading import robot_of
+from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.verification.configurations import configurations
 
@@ -32,7 +33,7 @@ MOST: Final = 64
 """So many candidates are kept: what fits that many says nothing."""
 
 
-def identify(robot: Robot | str, q: ArrayLike, *given: ArrayLike) -> Identified:
+def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
     """Which convention a Jacobian, a pose or a twist is in: whose, at which point, in which axes, order and units.
 
     Every convention that is known is tried: it fits if it gives the numbers at each q to the digits that they have, by
@@ -59,6 +60,7 @@ def identify(robot: Robot | str, q: ArrayLike, *given: ArrayLike) -> Identified:
     for relative, absolute in tolerances(asked.values):
         search = _poses if asked.quantity == "pose" else _jacobians
         found = list(search(robot, engine, asked, relative, absolute))
+        found = found or list(_points(robot, engine, asked, relative, absolute))
         if found:
             other = Pinocchio(robot)
             found = [each for each in found if _confirmed(other, each, asked, relative, absolute)]
@@ -97,6 +99,28 @@ def _jacobians(
                 residual = float(abs(values - expected[:, :, list(joints)] * signs).max())
                 written = replace(writing, joints=joints, signs=signs)
                 yield Candidate(asked.quantity, residual, robot.velocity_names, turning, observer, written)
+
+
+def _points(robot: Robot, engine: Engine, asked: GivenSamples, relative: float, absolute: float) -> Iterator[Candidate]:
+    """Jacobians with all columns in their order, of points that the file does not name."""
+    if asked.quantity != "jacobian" or sorted(asked.values.shape[1:]) != sorted((6, robot.nv)):
+        return
+    turning, rows, joints = _turning(robot), asked.values, tuple(range(robot.nv))
+    layouts = ["rows"] if rows.shape[1] == 6 else []
+    layouts += ["transposed"] if rows.shape[2] == 6 else []
+    seen = list(movable(robot, engine, asked.q))
+    for layout, order, unit, angle in product(layouts, ("v,w", "w,v"), UNITS, ("rad", "deg")):
+        writing = Writing(order, unit, angle, layout, joints, (1,) * robot.nv)  # type: ignore[arg-type]
+        given = np.swapaxes(rows, 1, 2) if layout == "transposed" else rows
+        ours = given * np.where((turning > 0.0) & (angle == "deg"), 180.0 / np.pi, 1.0)
+        linear, angular = (ours[:, :3], ours[:, 3:]) if order == "v,w" else (ours[:, 3:], ours[:, :3])
+        for each in seen:
+            for observer in each.explaining(linear * UNITS[unit], angular):
+                expected = writing.rows(observed(engine, observer, asked.q), turning)
+                off = _apart(given, expected, relative, absolute)[joints, joints, 0]
+                if off.max() <= 1.0:
+                    residual = float(abs(given - expected).max())
+                    yield Candidate(asked.quantity, residual, robot.velocity_names, turning, observer, writing)
 
 
 def _apart(values: FloatArray, expected: FloatArray, relative: float, absolute: float) -> FloatArray:
