@@ -296,3 +296,30 @@ def test_no_joints_and_one(tmp_path: Path) -> None:
     still.write_text("<robot name='s'><link name='base'/></robot>")
     with pytest.raises(InputError):
         ps.identify(ps.load(still), np.zeros((1, 0)), np.zeros((1, 6, 0)))
+
+
+@pytest.mark.parametrize("shape", ["J", "rpy"])
+def test_many_that_fit_are_never_one(shape: str) -> None:
+    """At zero, where all frames stand alike, dozens fit under many names; none is hidden behind the first ones'."""
+    robot = ps.load("panda")
+    q = robot.neutral
+    T = ps.Pinocchio(robot).fk(q, "panda_link2")
+    R = Rotation.from_matrix(T[:3, :3])
+    given = {
+        "J": ps.Pinocchio(robot).jacobian(q, "panda_link2", "hybrid"),
+        "rpy": np.concatenate([T[:3, 3], R.as_euler("xyz")]),
+    }
+    found = ps.identify(robot, q, given[shape])
+    assert found.verdict == "ambiguous"
+    assert 2 <= len(found.candidates) <= 8
+    assert found.ask is not None
+
+
+def test_a_humanoid() -> None:
+    """A hundred frames, and ten thousand pairs of them."""
+    robot = ps.load("talos_full_v2")
+    q = places(robot)
+    found = ps.identify(robot, q, ps.Pinocchio(robot).fk(q, "gripper_left_base_link"))
+    assert found.verdict == "unique"
+    words = (found.candidates[0].words, *found.candidates[0].aliases)
+    assert f"the pose of gripper_left_base_link in {robot.base}, as 4×4 matrix" in words

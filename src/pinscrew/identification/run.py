@@ -19,6 +19,7 @@ from pinscrew.identification.observers import moving, observed, observers
 from pinscrew.identification.outcome import Candidate, Identified
 from pinscrew.identification.points import movable
 from pinscrew.identification.writings import UNITS, Writing, columns
+from pinscrew.lie import se3
 from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
 from pinscrew.verification.configurations import configurations
@@ -29,8 +30,8 @@ TRIED: Final = 8
 """Configurations at which candidates are told apart."""
 SAME: Final = 1e-9
 """Numbers that differ by less are the same convention under two names."""
-MOST: Final = 64
-"""So many candidates are kept: what fits that many says nothing."""
+MOST: Final = 8
+"""So many different conventions are told: what fits more says nothing."""
 
 
 def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
@@ -66,7 +67,7 @@ def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
             found = [each for each in found if _confirmed(other, each, asked, relative, absolute)]
             break
     found.sort(key=lambda each: each.cost)  # stable: of equals the one that was tried first
-    distinct = _distinct(engine, found[:MOST], places)
+    distinct = _distinct(engine, found, places)
     return Identified(robot.name, tuple(distinct), len(asked.q), _telling(engine, distinct, places))
 
 
@@ -134,29 +135,25 @@ def _apart(values: FloatArray, expected: FloatArray, relative: float, absolute: 
 
 
 def _poses(robot: Robot, engine: Engine, asked: GivenSamples, relative: float, absolute: float) -> Iterator[Candidate]:
+    turning, tip = _turning(robot), moving(robot)[:1]
     frames = robot.frame_names
+    pairs = [(a, b) for a, b in product(frames, frames) if a != b]
+    pairs.sort(key=lambda pair: (pair[0] != robot.base, pair[1] not in tip))
     T_base = {name: np.asarray(engine.fk(asked.q, name)) for name in frames}
-    inverses = {name: np.linalg.inv(T) for name, T in T_base.items()}
-    tip = moving(robot)[:1]
-    pairs = sorted(product(frames, frames), key=lambda pair: (pair[0] != robot.base, pair[1] not in tip))
-    turning = _turning(robot)
-    decoded = [(each, each.decode(asked.values)) for each in encodings(asked.values.shape[1:])]
+    inverses = {name: se3.inverse(T) for name, T in T_base.items()}
+    known = np.stack([inverses[a] @ T_base[b] for a, b in pairs]) if pairs else np.zeros((0, 1, 4, 4))
     scale = max(1.0, float(abs(asked.values).max(initial=0.0)))
-    for a, b in pairs:
-        if a == b:
+    for encoding in encodings(asked.values.shape[1:]):
+        T = encoding.decode(asked.values)
+        if T is None:
             continue
-        T_a_b = inverses[a] @ T_base[b]
-        for encoding, T in decoded:
-            if T is None:
-                continue
-            length = UNITS[encoding.unit] * (2.0 * absolute + relative * scale)
-            turn = (2.0 * absolute + relative) * (np.pi / 180.0 if encoding.angle == "deg" else 1.0) + relative
-            if (
-                abs(T[:, :3, 3] - T_a_b[:, :3, 3]).max() <= length
-                and abs(T[:, :3, :3] - T_a_b[:, :3, :3]).max() <= turn
-            ):
-                residual = float(abs(T - T_a_b).max())
-                yield Candidate("pose", residual, robot.velocity_names, turning, frames=(a, b), encoding=encoding)
+        length = UNITS[encoding.unit] * (2.0 * absolute + relative * scale)
+        turn = (2.0 * absolute + relative) * (np.pi / 180.0 if encoding.angle == "deg" else 1.0) + relative
+        off = abs(known - T)
+        fits = (off[..., :3, 3].max(axis=(1, 2)) <= length) & (off[..., :3, :3].max(axis=(1, 2, 3)) <= turn)
+        for k in np.flatnonzero(fits):
+            residual = float(off[k].max())
+            yield Candidate("pose", residual, robot.velocity_names, turning, frames=pairs[k], encoding=encoding)
 
 
 def _confirmed(engine: Engine, candidate: Candidate, asked: GivenSamples, relative: float, absolute: float) -> bool:
@@ -176,7 +173,7 @@ def _predicted(engine: Engine, candidate: Candidate, q: FloatArray, qd: FloatArr
     """What somebody with this convention would give at q, in the shape of what was given."""
     if candidate.encoding is not None:
         a, b = candidate.frames
-        return candidate.encoding.encode(np.linalg.inv(engine.fk(q, a)) @ engine.fk(q, b))
+        return candidate.encoding.encode(se3.inverse(engine.fk(q, a)) @ engine.fk(q, b))
     if candidate.observer is None or candidate.writing is None:
         return np.zeros(0)
     J = observed(engine, candidate.observer, q)
@@ -195,8 +192,8 @@ def _distinct(engine: Engine, found: list[Candidate], places: FloatArray) -> lis
     for each in found:
         k = next((k for k, other in enumerate(kept) if _same(engine, each, other, places)), None)
         if k is None:
-            kept.append(each)
-            names.append([])
+            kept += [each] if len(kept) < MOST else []
+            names += [[]] if len(names) < MOST else []
         else:
             names[k].append(each.words)
     return [replace(each, aliases=tuple(words)) for each, words in zip(kept, names, strict=True)]
@@ -230,7 +227,7 @@ def _telling(engine: Engine, candidates: list[Candidate], places: FloatArray) ->
     """The place at which the candidates nearest to each other are farthest apart; None where one is left."""
     if len(candidates) < 2:
         return None
-    pairs = [(a, b) for k, a in enumerate(candidates[:8]) for b in candidates[:k]]
+    pairs = [(a, b) for k, a in enumerate(candidates) for b in candidates[:k]]
     apart = np.min([_differences(engine, a, b, places) for a, b in pairs], axis=0)
     return np.asarray(places[int(np.argmax(apart))])
 
