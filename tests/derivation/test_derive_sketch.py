@@ -69,3 +69,15 @@ def test_names_are_text() -> None:
     assert r"\texttt{\textless{}b\textgreater{}\_\$}" in sketch_latex(sketch(d)).replace(
         "<b>", r"\textless{}b\textgreater{}"
     )
+
+
+@pytest.mark.parametrize("name", ["spherical_rrp", "gear_pair", "lead_screw", "scara"])
+def test_no_curve_of_latex_is_a_point(name: str) -> None:
+    """TeX divides by how far a curve goes: a line that is seen end-on is a dot."""
+    drawn = sketch_latex(sketch(ps.derive(name)))
+    ends = re.findall(r"\\qbezier\((.*?)\)\(.*?\)\((.*?)\)", drawn)
+    assert ends
+    for pair in ends:
+        (ax, ay), (bx, by) = (map(float, end.split(",")) for end in pair)
+        assert max(abs(ax - bx), abs(ay - by)) > 0.2
+    assert r"\circle*" in drawn or name == "scara"

@@ -14,7 +14,10 @@ from scipy.spatial.transform import Rotation
 import pinscrew as ps
 from command_line import ok, refused, run
 from pinscrew.ground.errors import InputError
+from pinscrew.identification.observers import observed
+from pinscrew.identification.run import TRIED
 from pinscrew.identification.turns import SEQUENCES, from_angles, from_quaternion, to_angles, to_quaternion
+from pinscrew.verification.configurations import configurations
 
 ARMS = ["spherical_rrp", "scara", "anthropomorphic", "ur5_robot", "panda"]
 KINDS = {"spatial": "WORLD", "body": "LOCAL", "hybrid": "LOCAL_WORLD_ALIGNED"}
@@ -323,3 +326,21 @@ def test_a_humanoid() -> None:
     assert found.verdict == "unique"
     words = (found.candidates[0].words, *found.candidates[0].aliases)
     assert f"the pose of gripper_left_base_link in {robot.base}, as 4×4 matrix" in words
+
+
+def test_what_is_asked_tells_them_apart_best() -> None:
+    """Of the places that are looked at, the one at which the two nearest of the candidates are farthest apart."""
+    robot = ps.load("scara")
+    pin = ps.Pinocchio(robot)
+    found = ps.identify(robot, np.zeros(3), pin.jacobian(np.zeros(3), "tool", "hybrid"))
+    assert found.ask is not None
+    observers = [each.observer for each in found.candidates if each.observer is not None]
+    tried = configurations(robot, TRIED, 0)
+    tried_q = [q for label, q in zip(tried.labels, tried.q, strict=True) if label.startswith("random")]
+    assert any(np.array_equal(found.ask, q) for q in tried_q)
+
+    def nearest(q: np.ndarray[Any, Any]) -> float:
+        seen = [observed(pin, each, q[None]) for each in observers]
+        return min(float(abs(a - b).max()) for k, a in enumerate(seen) for b in seen[:k])
+
+    assert nearest(found.ask) == pytest.approx(max(map(nearest, tried_q)))

@@ -52,6 +52,9 @@ def sketch_latex(drawing: Sketch) -> str:
     for line in drawing.lines:
         found.append(rf"{_color(line.color)}\linethickness{{{line.width:g}pt}}")
         for (ax, ay), (bx, by) in _dashes(line):
+            if max(abs(ax - bx), abs(ay - by)) <= line.width:  # seen end-on: TeX divides by the length of a curve
+                found.append(rf"\put({ax:.1f},{ay:.1f}){{\circle*{{{line.width:g}}}}}")
+                continue
             middle = f"({(ax + bx) / 2:.1f},{(ay + by) / 2:.1f})"
             found.append(rf"\qbezier({ax:.1f},{ay:.1f}){middle}({bx:.1f},{by:.1f})")
     for label in drawing.labels:
