@@ -136,19 +136,6 @@ def test_verify_writes_files(tmp_path: Path) -> None:
     assert sorted(tmp_path.iterdir()) == [markdown, junit], "nothing else is left"
 
 
-@pytest.mark.parametrize("option", ["--junit", "--markdown"])
-def test_unwritable_file(option: str, tmp_path: Path) -> None:
-    """The outcome is printed all the same, and nothing is left half-written."""
-    missing = tmp_path / "missing" / "report"
-    done = run("verify", "drone", *FEW, option, missing)
-    assert done.status == 2
-    assert done.out.splitlines()[-1].startswith("drone: PoE and Pinocchio agree")
-    assert done.err == f"pinscrew: {missing}: can't be written (No such file or directory)\n"
-    assert list(tmp_path.iterdir()) == []
-    assert "can't be written" in run("verify", "drone", *FEW, option, "").err
-    assert refused("verify", "drone", option, tmp_path).endswith("is a directory.")
-
-
 def test_writing_fails_halfway(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     report = tmp_path / "report.xml"
     report.write_text("old")

@@ -8,12 +8,16 @@ import socket
 import stat
 import threading
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
+from typing import Final
 
 import pytest
 
 import urdfs
-from command_line import ok, refused
+from command_line import ok, refusal, refused
+from pinscrew.cli import _COMMANDS
+from pinscrew.cli.output import FILE
 from pinscrew.description.packages import package_name
 from pinscrew.ground import files
 from pinscrew.ground.errors import InputError
@@ -25,6 +29,10 @@ def mode(path: Path) -> int:
 
 def names(folder: Path) -> list[str]:
     return [path.name for path in folder.iterdir()]
+
+
+def write_2(path: Path) -> None:
+    files.write(path, b"2")
 
 
 def test_a_new_file_has_the_mode_that_the_mask_leaves(tmp_path: Path) -> None:
@@ -55,9 +63,10 @@ def test_what_nobody_may_write_is_not_replaced(tmp_path: Path, bits: int) -> Non
     path = tmp_path / "a"
     path.write_bytes(b"1")
     path.chmod(bits)
-    with pytest.raises(InputError) as caught:
-        files.write(path, b"2")
-    assert (caught.value.code, caught.value.where) == ("unwritable", str(path))
+    for refusing in (files.check, write_2):
+        with pytest.raises(InputError) as caught:
+            refusing(path)
+        assert (caught.value.code, caught.value.where) == ("unwritable", str(path))
     assert mode(path) == bits
     path.chmod(0o600)
     assert path.read_bytes() == b"1"
@@ -75,7 +84,10 @@ def test_a_file_keeps_its_owner(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["a" * 255, "é" * 127, "a\nb", "=1", "-x"])
 def test_names_that_a_folder_can_have(tmp_path: Path, name: str) -> None:
+    files.check(tmp_path / name)
+    assert names(tmp_path) == []
     files.write(tmp_path / name, b"1")
+    files.check(tmp_path / name)
     files.write(tmp_path / name, b"2")
     assert (tmp_path / name).read_bytes() == b"2"
     assert names(tmp_path) == [name]
@@ -87,10 +99,19 @@ def test_names_that_it_can_not(tmp_path: Path, name: str) -> None:
     (tmp_path / "file").touch()
     (tmp_path / "loop").symlink_to("loop")
     before = sorted(names(tmp_path))
-    with pytest.raises(InputError) as caught:
-        files.write(tmp_path / name, b"1")
-    assert caught.value.code == "unwritable"
+    for refusing in (files.check, write_2):
+        with pytest.raises(InputError) as caught:
+            refusing(tmp_path / name)
+        assert caught.value.code == "unwritable"
     assert sorted(names(tmp_path)) == before
+
+
+def test_a_folder_that_we_may_not_change(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """For root there is none, so the system's answer is ours."""
+    files.check(tmp_path / "a")
+    monkeypatch.setattr(os, "access", lambda path, how: not (path == tmp_path and how & os.W_OK))
+    with pytest.raises(InputError, match="Permission denied"):
+        files.check(tmp_path / "a")
 
 
 def test_links_are_followed(tmp_path: Path) -> None:
@@ -114,7 +135,7 @@ def test_devices_are_written_to_directly(tmp_path: Path) -> None:
     assert stat.S_ISFIFO(pipe.stat().st_mode)
 
 
-@pytest.mark.parametrize("function", [files.write, files.append])
+@pytest.mark.parametrize("function", [lambda path, _: files.check(path), files.write, files.append])
 def test_a_pipe_that_nobody_reads_is_not_waited_for(function: Callable[[Path, bytes], None], tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -139,6 +160,8 @@ def test_a_slow_reader_of_a_pipe_gets_all(tmp_path: Path) -> None:
     end = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
     os.set_blocking(end, True)
     data = b"12345678" * 2**15  # more than a pipe holds
+    files.check(pipe)
+    assert select.select([end], [], [], 0)[0] == []  # it is no end of what it reads
     writer = threading.Thread(target=files.write, args=(pipe, data), daemon=True)
     writer.start()
     with os.fdopen(end, "rb") as stream:
@@ -156,8 +179,40 @@ def test_open_streams_are_written_to_where_they_are(tmp_path: Path) -> None:
         files.write(Path(f"/dev/fd/{stream.fileno()}"), b"2")
         stream.write(b"3")
     assert (tmp_path / "a").read_bytes() == b"123"
-    with pytest.raises(InputError):
-        files.write(Path("/dev/fd/999999"), b"1")
+    for refusing in (files.check, write_2):
+        with pytest.raises(InputError):
+            refusing(Path("/dev/fd/999999"))
+
+
+TARGETS: Final = [
+    pytest.param(name, option.opts[-1], id=f"{name} {option.opts[-1]}")
+    for name, module in _COMMANDS.items()
+    for option in import_module(module).command.params
+    if option.type is FILE
+]
+
+
+@pytest.mark.parametrize(("command", "option"), TARGETS)
+def test_what_a_command_can_not_write_is_known_before_its_work(command: str, option: str, tmp_path: Path) -> None:
+    """The robot, which is not there, is not even looked for."""
+    (tmp_path / "folder.png").mkdir()
+    (tmp_path / "protected.png").touch(0o444)
+    (tmp_path / "loop.png").symlink_to("loop.png")
+    os.mkfifo(tmp_path / "pipe.png")
+    before = sorted(names(tmp_path))
+    for name in ("folder.png", "protected.png", "loop.png", "pipe.png", "none/a.png", "protected.png/a.png"):
+        error = refusal(command, "nowhere.urdf", option, tmp_path / name)
+        assert (error.code, error.where) == ("unwritable", str(tmp_path / name))
+    assert sorted(names(tmp_path)) == before
+
+
+def test_locks_are_written_all_or_none(tmp_path: Path) -> None:
+    robots = [tmp_path / "a.urdf", tmp_path / "b.urdf"]
+    for robot in robots:
+        robot.write_text(urdfs.single_revolute())
+    (tmp_path / "b.urdf.lock").mkdir()
+    assert refusal("lock", *robots).code == "unwritable"
+    assert not (tmp_path / "a.urdf.lock").exists()
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")

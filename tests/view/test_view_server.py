@@ -262,10 +262,12 @@ def test_only_what_exists_is_drawn() -> None:
         prepare.begin(model, draw=["nothing"])  # type: ignore[list-item]
 
 
-def test_a_file_that_cannot_be_written(view: View, tmp_path: Any) -> None:
-    with pytest.raises(ps.PinscrewError) as caught:
-        view.save_html(tmp_path / "nowhere" / "a.html")
-    assert caught.value.code == "unwritable"
+def test_a_file_that_cannot_be_written(view: View, tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pinscrew.view.png.picture", lambda *_: pytest.fail("there was a picture"))
+    for save in (view.save_html, view.save_png):  # before the browser is started
+        with pytest.raises(ps.PinscrewError) as caught:
+            save(tmp_path / "nowhere" / "a")
+        assert caught.value.code == "unwritable"
 
 
 SAID = {

@@ -419,9 +419,12 @@ def test_an_unwritable_file_is_known_before_the_work(tmp_path: Path) -> None:
     def never(_: int) -> None:
         raise AssertionError("the work began")
 
-    with pytest.raises(InputError, match="can't be written") as caught:
-        ps.reachability(load("one_joint"), samples=10, path=tmp_path / "none" / "map.npz", advance=never)
-    assert caught.value.code == "unwritable"
+    protected = tmp_path / "map.npz"
+    protected.touch(0o444)
+    for file in (protected, tmp_path / "none" / "map.npz"):
+        with pytest.raises(InputError, match="can't be written") as caught:
+            ps.reachability(load("one_joint"), samples=10, path=file, advance=never)
+        assert caught.value.code == "unwritable"
 
 
 def test_saved_and_loaded(tmp_path: Path) -> None:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from pinscrew.robot.robot import Robot
 
 __all__ = [
-    "OUTPUT",
     "Named",
     "amount",
     "configuration",
@@ -39,9 +38,6 @@ __all__ = [
 ]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
-
-OUTPUT: Final = click.Path(dir_okay=False, path_type=Path)
-"""The type of an option that names a file to write."""
 
 _ASSIGNMENT: Final = re.compile(r"([^\s:=]+):=(.*)", re.DOTALL)
 

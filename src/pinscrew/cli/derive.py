@@ -43,7 +43,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     type=click.Choice(["terminal", "markdown", "latex", "html", "notebook"]),
     help="How to write the report; by default for a terminal where it is shown on one, else as Markdown.",
 )
-@click.option("-o", "--output", "target", type=arguments.OUTPUT, help="Write to this file.")
+@click.option("-o", "--output", "target", type=output.FILE, help="Write to this file.")
 @click.option(
     "--part",
     "parts",

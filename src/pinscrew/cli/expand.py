@@ -15,7 +15,7 @@ __all__ = ["command"]
 @click.command(name="expand", short_help="Print the URDF that a xacro file stands for.")
 @arguments.robot_argument()
 @click.option("--sources", is_flag=True, help="Say before each link and joint, in a comment, where it comes from.")
-@click.option("-o", "--output", "file", type=arguments.OUTPUT, help="Write it to this file instead.")
+@click.option("-o", "--output", "file", type=output.FILE, help="Write it to this file instead.")
 @arguments.json_option
 def command(words: tuple[str, ...], file: Path | None, *, sources: bool, as_json: bool) -> None:
     """Print the URDF that ROBOT's xacro file stands for, as every other command reads it.

@@ -14,8 +14,8 @@ import click
 from pinscrew.cli import arguments, output
 from pinscrew.cli.progress import progress
 from pinscrew.cli.reports import Wanted, fail_on_option, report_options
+from pinscrew.ground import files
 from pinscrew.ground.errors import DescriptionError, PinscrewError
-from pinscrew.ground.files import open_plain
 
 if TYPE_CHECKING:
     from pinscrew.lockfile.checking import LockCheck
@@ -89,6 +89,8 @@ def _write(
             advance(1, asked.source)
     changed = [path for path, content in texts.items() if not _holds(path, content)]
     for path in changed:
+        files.check(path)  # all are written, or none
+    for path in changed:
         output.write_file(path, texts[path])
     if as_json:
         rows = [{"lock": str(path), "written": path in changed} for path in texts]
@@ -155,7 +157,7 @@ def _kept(path: Path) -> frozenset[str] | None:
 def _holds(path: Path, content: str) -> bool:
     """Whether a file has this content already."""
     try:
-        with open_plain(path) as stream:
+        with files.open_plain(path) as stream:
             wanted = content.encode("utf-8")
             return stream.read(len(wanted) + 1) == wanted
     except OSError:

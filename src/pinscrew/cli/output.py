@@ -19,10 +19,23 @@ if TYPE_CHECKING:
     from pinscrew.cli.tables import TerminalTable
     from pinscrew.ground.typing import FloatArray
 
-__all__ = ["console", "matrix_lines", "plain", "print_json", "say", "table", "write_file"]
+__all__ = ["FILE", "console", "matrix_lines", "plain", "print_json", "say", "table", "write_file"]
 
 UNSEEN_WIDTH: Final = 160
 """Columns of a table that goes to a file or a pipe."""
+
+
+class _Output(click.Path):
+    """A file to write: one that can't be written is refused before any work."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+        files.check(path)
+        return path
+
+
+FILE: Final = _Output(readable=False)
+"""The type of an option that names a file to write."""
 
 
 def console(*, stderr: bool = False) -> Console:

@@ -89,7 +89,7 @@ fail_on_option = click.option(
 
 
 def _file(name: str, form: str) -> Callable[[_F], _F]:
-    return click.option(f"--{name}", type=arguments.OUTPUT, help=f"Write {form} to this file.")
+    return click.option(f"--{name}", type=output.FILE, help=f"Write {form} to this file.")
 
 
 def report_options(function: Callable[..., Any]) -> Callable[..., Any]:

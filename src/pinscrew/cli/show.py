@@ -56,13 +56,13 @@ def _groups(_ctx: click.Context, _param: click.Parameter, value: str | None) -> 
 @click.option(
     "--html",
     "html_file",
-    type=arguments.OUTPUT,
+    type=output.FILE,
     help="Write the page as one HTML file that needs no server and no network, and end.",
 )
 @click.option(
     "--png",
     "png_file",
-    type=arguments.OUTPUT,
+    type=output.FILE,
     help="Write a picture, made by Chromium or Chrome without a window, and end.",
 )
 @click.option("--no-open", is_flag=True, help="Print the address alone and open no browser.")

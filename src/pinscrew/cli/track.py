@@ -55,11 +55,9 @@ _SCHEMES = ("exponential", "exponential-body", "coursework", "euler", "rk4")
     help="How rates are recovered: (JᵀJ)⁻¹Jᵀ, by singular values, or by damped least squares.",
 )
 @click.option("--at", metavar="SECONDS", help="The time to print; by default the begin of the last step.")
-@click.option("--csv", "csv_file", type=arguments.OUTPUT, help="Write a row for each time to this file.")
-@click.option("--npz", "npz_file", type=arguments.OUTPUT, help="Write all arrays to this file, for numpy.load.")
-@click.option(
-    "--plot", "plot_file", type=arguments.OUTPUT, help="Draw rates and drift to this file: .png, .svg or .pdf."
-)
+@click.option("--csv", "csv_file", type=output.FILE, help="Write a row for each time to this file.")
+@click.option("--npz", "npz_file", type=output.FILE, help="Write all arrays to this file, for numpy.load.")
+@click.option("--plot", "plot_file", type=output.FILE, help="Draw rates and drift to this file: .png, .svg or .pdf.")
 @arguments.json_option
 def command(
     words: tuple[str, ...],

@@ -67,8 +67,8 @@ _ONLY_MAPS: Final = {"voxel": "--voxel", "jobs": "--jobs", "scheduler": "--sched
     callback=_ranges,
     help="A coordinate's range instead of its limits, such as joint1=-90deg:90deg; may be repeated.",
 )
-@click.option("--npz", type=arguments.OUTPUT, help="Write everything to this file, for numpy.")
-@click.option("--plot", type=arguments.OUTPUT, help="Draw a picture: .png, .svg or .pdf.")
+@click.option("--npz", type=output.FILE, help="Write everything to this file, for numpy.")
+@click.option("--plot", type=output.FILE, help="Draw a picture: .png, .svg or .pdf.")
 @click.option(
     "--color",
     "colour",
@@ -82,7 +82,7 @@ _ONLY_MAPS: Final = {"voxel": "--voxel", "jobs": "--jobs", "scheduler": "--sched
     flag_value="",
     help="Compute it from this choice of frame 0 too (or from the only one there is), and draw both.",
 )
-@click.option("--map", "target", type=arguments.OUTPUT, help="Write a map of voxels instead, for many samples.")
+@click.option("--map", "target", type=output.FILE, help="Write a map of voxels instead, for many samples.")
 @click.option(
     "--voxel", metavar="EDGE", callback=arguments.amount("m"), help="Edge of the map's voxels. By default 5cm."
 )

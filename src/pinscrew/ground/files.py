@@ -13,12 +13,14 @@ from typing import BinaryIO, Final
 
 from pinscrew.ground.errors import InputError
 
-__all__ = ["append", "open_plain", "write"]
+__all__ = ["append", "check", "open_plain", "write"]
 
 _STREAM: Final = re.compile("/dev/(?:(stdout|stderr)|fd/([0-9]{1,9}))")
 """An open stream, which may be a file that is not to be replaced: another process may hold it too."""
 _NOT_PLAIN: Final = "it is no plain file"
 _NUMBERS: Final = {"stdout": 1, "stderr": 2}
+_HELD: Final[dict[Path, BinaryIO]] = {}
+"""Pipes that `check` opened: who reads one would take it for its end if it were closed before `write`."""
 
 
 def open_plain(path: Path) -> BinaryIO:
@@ -40,6 +42,38 @@ def open_plain(path: Path) -> BinaryIO:
     return stream
 
 
+def check(path: Path) -> None:
+    """Refuse a file that `write` would not write; call it before long work. Nothing is written.
+
+    Args:
+        path: see `write`. A pipe must have its reader now, and is kept open for `write`.
+
+    Raises:
+        InputError: if it is a folder, is in none, or can't be written otherwise.
+    """
+    try:
+        stream = _stream(path)
+        if stream is not None:
+            os.fstat(stream)
+            return
+        target, known = _looked_up(path)
+        if known is None:
+            target.parent.stat()
+            _check_access(target.parent, os.W_OK | os.X_OK)
+        elif stat.S_ISREG(known.st_mode):
+            _check_replaceable(target, known)
+        elif stat.S_ISFIFO(known.st_mode):
+            _HELD[target] = open(target, "wb", opener=_without_waiting)  # noqa: SIM115 (`write` closes it)
+        elif stat.S_ISDIR(known.st_mode):
+            raise _error(errno.EISDIR)
+        elif stat.S_ISSOCK(known.st_mode):
+            raise _error(errno.ENXIO)
+        else:
+            _check_access(target, os.W_OK)
+    except (OSError, ValueError, RuntimeError) as error:
+        raise _unwritable(path, error) from None
+
+
 def write(path: Path, data: bytes) -> None:
     """Write a file whole or not at all: its name appears, or changes its content, only once everything is written.
 
@@ -55,15 +89,14 @@ def write(path: Path, data: bytes) -> None:
         InputError: if it can't be written.
     """
     try:
-        stream = _STREAM.fullmatch(str(path))
+        stream = _stream(path)
         if stream is not None:
-            with os.fdopen(os.dup(_NUMBERS.get(stream[1]) or int(stream[2])), "wb") as file:
+            with os.fdopen(os.dup(stream), "wb") as file:
                 file.write(data)
             return
-        target = path.resolve()
-        known = target.stat() if target.exists() else None
+        target, known = _looked_up(path)
         if known is not None and not stat.S_ISREG(known.st_mode):
-            with open(target, "wb", opener=_without_waiting) as device:
+            with _HELD.pop(target, None) or open(target, "wb", opener=_without_waiting) as device:
                 device.write(data)
         else:
             _replace(target, data, known)
@@ -71,9 +104,39 @@ def write(path: Path, data: bytes) -> None:
         raise _unwritable(path, error) from None
 
 
+def _stream(path: Path) -> int | None:
+    """The number of the open stream that a path stands for, if it does."""
+    found = _STREAM.fullmatch(str(path))
+    return None if found is None else _NUMBERS.get(found[1]) or int(found[2])
+
+
+def _looked_up(path: Path) -> tuple[Path, os.stat_result | None]:
+    """What a path leads to, and what is there: None where nothing is."""
+    target = path.resolve()
+    try:
+        return target, target.stat()
+    except FileNotFoundError:
+        return target, None
+
+
+def _check_replaceable(target: Path, known: os.stat_result) -> None:
+    if not known.st_mode & 0o222:  # not even by root, who may do all
+        raise _error(errno.EACCES)
+    _check_access(target, os.W_OK)
+
+
+def _check_access(target: Path, how: int) -> None:
+    if not os.access(target, how):
+        raise _error(errno.EACCES)
+
+
+def _error(number: int) -> OSError:
+    return OSError(number, os.strerror(number))
+
+
 def _replace(target: Path, data: bytes, known: os.stat_result | None) -> None:
-    if known is not None and not (known.st_mode & 0o222 and os.access(target, os.W_OK)):
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    if known is not None:
+        _check_replaceable(target, known)
     temporary = target.with_name(f".pinscrew.{secrets.token_hex(8)}")  # short: the name itself may be the longest
     private = 0o600 if known is not None else 0o666  # less what the user's mask takes away
     descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, private)

@@ -27,12 +27,13 @@ def check(path: Path) -> None:
     """Refuse a file that `save` would not write; call it before long work.
 
     Raises:
-        InputError: if its suffix is none of `FORMATS`.
+        InputError: if its suffix is none of `FORMATS`, or it can't be written.
         MissingExtraError: if matplotlib is not installed.
     """
     if path.suffix.lower() not in FORMATS:
         what = f"a figure can't be written with the suffix {path.suffix!r}"
         raise InputError("figure-suffix", what, where=str(path), remedy=f"use {', '.join(FORMATS)}")
+    files.check(path)
     _require()
 
 

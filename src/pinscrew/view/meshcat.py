@@ -154,6 +154,7 @@ class View:
             ViewError: if there is no browser to make it.
             InputError: if the file can't be written.
         """
+        files.check(Path(path))
         files.write(Path(path), png.picture(self._page(live=False, picture=(width, height)), width, height))
 
     def close(self) -> None:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from pinscrew.engines.base import Engine
 from pinscrew.engines.compiled.batch import for_many
 from pinscrew.engines.measures import generic_ranks
+from pinscrew.ground import files
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import EngineError, InputError
 from pinscrew.ground.processes import job_count, process_pool
@@ -82,7 +83,8 @@ def reachability(
 
     Raises:
         InputError: if an argument is out of its range or missing, a voxel is so small that the robot spans more
-            than a million, or the file holds an unfinished map (without ``resume``) or another (with it).
+            than a million, or the file can't be written, or holds an unfinished map (without ``resume``) or another
+            (with it).
         EngineError: if a worker ends.
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
     """
@@ -99,6 +101,8 @@ def reachability(
     metadata: archive.Metadata = archive.provenance(robot, engine, frame, found)
     metadata |= {"voxel": voxel, "samples": samples, "seed": seed, "block": BLOCK, "rank": rank}
     file = None if path is None else Path(path)
+    if file is not None:
+        files.check(file)
     voxels, done = _begun(file, metadata, resume)
     task = MapTask(engine, frame, found, rank, samples, seed, voxel)
     record = _Record(file, metadata, Gathering(voxels), done)
@@ -129,11 +133,8 @@ class _Record:
         self._file = file
         self._metadata = metadata
         self._done = done
-        self._fresh = file is not None and not file.exists()
         self._seen = 0
         self._torn = False
-        if self._fresh:
-            self._write()  # a file that can't be written is better known before the work than after it
         self._due = time.monotonic() + INTERVAL
 
     def see(self, block: int, part: Voxels) -> None:
@@ -147,11 +148,9 @@ class _Record:
             self._write()
 
     def end(self) -> None:
-        """Write what is done, however the work ended; a file that nothing came into is removed."""
+        """Write what is done, if anything is, however the work ended."""
         if self._seen:
             self._write()
-        elif self._fresh and self._file is not None:
-            self._file.unlink(missing_ok=True)
 
     def _write(self) -> None:
         if self._file is None or self._torn:
