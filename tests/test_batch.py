@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import Any
 
@@ -61,11 +61,14 @@ def error(found: FloatArray, expected: FloatArray, scales: FloatArray) -> float:
     return float(difference.max(initial=0.0))
 
 
-def agreement(batch: ps.Batch, engine: Any, frame: str, q: FloatArray) -> float:
-    """The largest difference between a compiled engine and another, of everything about a frame."""
+def agreement(batch: ps.Batch, engine: Any, frame: str, q: FloatArray, kinds: Sequence[str] = KINDS) -> float:
+    """The largest difference between a compiled engine and another, of everything about a frame.
+
+    Each kind of Jacobian is a kernel, and compiling it is what takes the time.
+    """
     scales = sizes(batch.robot, q)
     worst = 0.0
-    for kind in KINDS:
+    for kind in kinds:
         T, J = batch.fk_jacobian(q, frame, kind)
         worst = max(worst, error(T, engine.fk(q, frame), scales), error(J, engine.jacobian(q, frame, kind), scales))
     return worst
@@ -98,14 +101,13 @@ def test_example_robots(name: str) -> None:
             assert agreement(batch, engine, frame, q) <= TOLERANCE
 
 
-@pytest.mark.parametrize("name", [name for name in urdfs.ROBOTS if name != "no_joints"])
-def test_every_kind_of_joint(name: str) -> None:
+@pytest.mark.parametrize(("i", "name"), list(enumerate(name for name in urdfs.ROBOTS if name != "no_joints")))
+def test_every_kind_of_joint(i: int, name: str) -> None:
     """Planar and floating joints too, which numpy moves."""
     robot = urdfs.load(urdfs.ROBOTS[name])
     q, _ = urdfs.sample(robot, 21, 0)
     batch = ps.Batch(robot)
-    for frame in robot.frame_names[-1:]:
-        assert agreement(batch, ps.PoE(robot), frame, q) <= TOLERANCE
+    assert agreement(batch, ps.PoE(robot), robot.frame_names[-1], q, [KINDS[i % 3]]) <= TOLERANCE
 
 
 @pytest.mark.parametrize("count", [0, 1, CHUNK - 1, CHUNK, CHUNK + 1, 5 * CHUNK + 3, SLICE + 7])
@@ -148,8 +150,8 @@ def test_cosine_and_sine() -> None:
     """To about 1 ulp: of one joint's rotation, which is nothing else, at angles near every multiple of π/4 to 1e5."""
     batch = make("one_joint")
     rng = np.random.default_rng(1)
-    quarters = np.arange(-127_000, 127_000) * (math.pi / 4)
-    angles = np.concatenate([quarters, np.nextafter(quarters, np.inf), rng.uniform(-1e5, 1e5, 100_000)])
+    quarters = np.arange(-127_000, 127_000, 7) * (math.pi / 4)  # 7: of every eighth of a turn
+    angles = np.concatenate([quarters, np.nextafter(quarters, np.inf), rng.uniform(-1e5, 1e5, 30_000)])
     T = batch.fk(angles[:, None])
     exact = np.array([[math.cos(angle), math.sin(angle)] for angle in angles])
     assert abs(T[:, :2, 0] - exact).max() <= 2.3e-16
@@ -158,8 +160,8 @@ def test_cosine_and_sine() -> None:
 @pytest.mark.parametrize(
     "tilt",
     [
-        *(0.0, 1e-9, 0.09, 0.11, math.pi),
-        *(pytest.param(tilt, marks=pytest.mark.slow) for tilt in (1e-16, 1e-3, math.pi - 1e-9)),
+        *(1e-9, 0.09, 0.11),
+        *(pytest.param(tilt, marks=pytest.mark.slow) for tilt in (0.0, 1e-16, 1e-3, math.pi - 1e-9, math.pi)),
     ],
 )
 def test_axes_at_any_angle_to_each_other(tilt: float) -> None:

@@ -62,7 +62,6 @@ def test_zero_within_the_limits_or_their_middle() -> None:
     assert opening.beside_zero(robot) == ["b", "c"]
 
 
-@pytest.mark.xdist_group("browser")
 def test_panda(open_page: Open, tmp_path: Path) -> None:
     done = run("show", "panda", "--html", tmp_path / "page.html")
     assert done.err == "pinscrew: zero is outside the limits of panda_joint4: shown in the middle of them\n"
@@ -80,7 +79,6 @@ def test_panda(open_page: Open, tmp_path: Path) -> None:
     assert page.said == []
 
 
-@pytest.mark.xdist_group("browser")
 def test_small_numbers_keep_four_digits(open_page: Open, tmp_path: Path) -> None:
     """A lead screw of 5 mm a turn moves 0.005/2π m a radian, which 0.0008 does not tell."""
     model = prepare.prepare(ps.load("lead_screw"))

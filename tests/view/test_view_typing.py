@@ -13,8 +13,6 @@ from pinscrew.ground.errors import InputError
 from pinscrew.ground.expressions import number
 from pinscrew.view import prepare
 
-pytestmark = pytest.mark.xdist_group("browser")
-
 TEXTS = [
     "0.5",
     "-.5",
