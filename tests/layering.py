@@ -36,7 +36,7 @@ OUTSIDE = {
     "mujoco": "witnesses.mujoco",
     "roboticstoolbox": "witnesses.roboticstoolbox",
     "llvmlite": "engines.compiled",
-    "sympy": "derivation checking",
+    "sympy": "derivation checking lie._symbolic",
     "latex2mathml": "derivation",
     "yaml": "motion",
     "scipy": "workspace",

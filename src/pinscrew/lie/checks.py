@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Any, Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,8 @@ from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
 
 __all__ = [
+    "SymbolicMatrix",
+    "is_symbolic",
     "read",
     "require_bottom_row",
     "require_finite",
@@ -24,6 +26,18 @@ EPSILON: Final = float(np.finfo(np.float64).eps)
 RIGID_TOLERANCE: Final = 1e-6
 """How far a matrix may be from a rotation or pose to be taken for one: above the rounding of float32, and far
 below anything that is wrong on purpose or by mistake."""
+
+
+class SymbolicMatrix(Protocol):
+    """A matrix of sympy's."""
+
+    @property
+    def free_symbols(self) -> Any: ...
+
+
+def is_symbolic(value: object) -> bool:
+    """Whether a value is sympy's: known by what it has, so that sympy need not be imported."""
+    return type(value) is not np.ndarray and hasattr(value, "free_symbols")
 
 
 def read(value: ArrayLike, trailing: tuple[int, ...], where: str, name: str) -> FloatArray:

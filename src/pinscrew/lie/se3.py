@@ -19,6 +19,8 @@ Barfoot, *State Estimation for Robotics*, Cambridge 2017, §7.1.
 
 from __future__ import annotations
 
+from typing import Any, overload
+
 import numpy as np
 
 from pinscrew.ground.typing import ArrayLike, FloatArray
@@ -38,7 +40,11 @@ __all__ = [
 ]
 
 
-def hat(xi: ArrayLike) -> FloatArray:
+@overload
+def hat(xi: checks.SymbolicMatrix) -> Any: ...
+@overload
+def hat(xi: ArrayLike) -> FloatArray: ...
+def hat(xi: Any) -> Any:
     """The matrix ξ̂ = [[ω̂, v], [0, 0]]; MLS §2.3.
 
     Args:
@@ -50,11 +56,19 @@ def hat(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
+    if checks.is_symbolic(xi):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.twist_matrix(_symbolic.read(xi, (6, 1), "se3.hat", "xi"))
     xi = checks.read(xi, (6,), "se3.hat", "xi")
     return _affine(_series.skew(xi[..., 3:]), xi[..., :3], 0.0)
 
 
-def vee(X: ArrayLike) -> FloatArray:
+@overload
+def vee(X: checks.SymbolicMatrix) -> Any: ...
+@overload
+def vee(X: ArrayLike) -> FloatArray: ...
+def vee(X: Any) -> Any:
     """The ξ = (v, ω) of a matrix ξ̂: the inverse of :func:`hat`; MLS §2.3.
 
     Only the last column and the skew part of the rest are read, without the bottom row.
@@ -68,11 +82,19 @@ def vee(X: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 4 by 4.
     """
+    if checks.is_symbolic(X):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.twist(_symbolic.read(X, (4, 4), "se3.vee", "X"))
     X = checks.read(X, (4, 4), "se3.vee", "X")
     return np.concatenate([X[..., :3, 3], so3.vee(X[..., :3, :3])], axis=-1)
 
 
-def exp(xi: ArrayLike) -> FloatArray:
+@overload
+def exp(xi: checks.SymbolicMatrix) -> Any: ...
+@overload
+def exp(xi: ArrayLike) -> FloatArray: ...
+def exp(xi: Any) -> Any:
     """The pose e^ξ̂ = [[e^ω̂, J v], [0, 1]], with the left Jacobian J of SO(3); MLS eq. 2.36.
 
     Args:
@@ -84,6 +106,10 @@ def exp(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
+    if checks.is_symbolic(xi):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.pose(_symbolic.read(xi, (6, 1), "se3.exp", "xi"))
     v, axis, angle = _split(checks.read(xi, (6,), "se3.exp", "xi"))
     return _affine(_series.exp(axis, angle), _times(_series.left_jacobian(axis, angle), v), 1.0)
 
@@ -113,7 +139,11 @@ def log(T: ArrayLike) -> FloatArray:
     return np.concatenate([v, omega], axis=-1)
 
 
-def inverse(T: ArrayLike) -> FloatArray:
+@overload
+def inverse(T: checks.SymbolicMatrix) -> Any: ...
+@overload
+def inverse(T: ArrayLike) -> FloatArray: ...
+def inverse(T: Any) -> Any:
     """The inverse pose [[Rᵀ, -Rᵀp], [0, 1]]. T is not checked.
 
     Args:
@@ -125,12 +155,20 @@ def inverse(T: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 4 by 4.
     """
+    if checks.is_symbolic(T):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.pose_inverse(_symbolic.read(T, (4, 4), "se3.inverse", "T"))
     T = checks.read(T, (4, 4), "se3.inverse", "T")
     R_transposed = np.swapaxes(T[..., :3, :3], -1, -2)
     return _affine(R_transposed, 0.0 - _times(R_transposed, T[..., :3, 3]), 1.0)
 
 
-def adjoint(T: ArrayLike) -> FloatArray:
+@overload
+def adjoint(T: checks.SymbolicMatrix) -> Any: ...
+@overload
+def adjoint(T: ArrayLike) -> FloatArray: ...
+def adjoint(T: Any) -> Any:
     """Ad_T = [[R, p̂R], [0, R]]; MLS eq. 2.58. It takes a twist from frame b to frame a: T ξ̂ T⁻¹ = (Ad_T ξ)^.
 
     Args:
@@ -142,12 +180,20 @@ def adjoint(T: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 4 by 4.
     """
+    if checks.is_symbolic(T):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.pose_adjoint(_symbolic.read(T, (4, 4), "se3.adjoint", "T"))
     T = checks.read(T, (4, 4), "se3.adjoint", "T")
     R = T[..., :3, :3]
     return _dual(R, _series.skew(T[..., :3, 3]) @ R)
 
 
-def ad(xi: ArrayLike) -> FloatArray:
+@overload
+def ad(xi: checks.SymbolicMatrix) -> Any: ...
+@overload
+def ad(xi: ArrayLike) -> FloatArray: ...
+def ad(xi: Any) -> Any:
     """ad_ξ = [[ω̂, v̂], [0, ω̂]]: the bracket [ξ̂, η̂] = ξ̂ η̂ - η̂ ξ̂ is the hat of ad_ξ η.
 
     Args:
@@ -159,6 +205,10 @@ def ad(xi: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 6 long.
     """
+    if checks.is_symbolic(xi):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.twist_ad(_symbolic.read(xi, (6, 1), "se3.ad", "xi"))
     xi = checks.read(xi, (6,), "se3.ad", "xi")
     return _dual(_series.skew(xi[..., 3:]), _series.skew(xi[..., :3]))
 

@@ -17,6 +17,8 @@ J. Guidance and Control 1(3), 1978, doi:10.2514/3.55767b.
 
 from __future__ import annotations
 
+from typing import Any, overload
+
 import numpy as np
 
 from pinscrew.ground.typing import ArrayLike, FloatArray
@@ -36,7 +38,11 @@ __all__ = [
 ]
 
 
-def hat(omega: ArrayLike) -> FloatArray:
+@overload
+def hat(omega: checks.SymbolicMatrix) -> Any: ...
+@overload
+def hat(omega: ArrayLike) -> FloatArray: ...
+def hat(omega: Any) -> Any:
     """The skew matrix ω̂ with ω̂ a = ω × a; MLS §2.2.
 
     Args:
@@ -48,10 +54,18 @@ def hat(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
+    if checks.is_symbolic(omega):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.skew(_symbolic.read(omega, (3, 1), "so3.hat", "omega"))
     return _series.skew(checks.read(omega, (3,), "so3.hat", "omega"))
 
 
-def vee(X: ArrayLike) -> FloatArray:
+@overload
+def vee(X: checks.SymbolicMatrix) -> Any: ...
+@overload
+def vee(X: ArrayLike) -> FloatArray: ...
+def vee(X: Any) -> Any:
     """The ω of a skew matrix: the inverse of :func:`hat`.
 
     Only the skew part (X - Xᵀ)/2 is read; a symmetric part is ignored without an error.
@@ -65,12 +79,20 @@ def vee(X: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3.
     """
+    if checks.is_symbolic(X):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.unskew(_symbolic.read(X, (3, 3), "so3.vee", "X"))
     X = checks.read(X, (3, 3), "so3.vee", "X")
     twice = X - np.swapaxes(X, -1, -2)
     return 0.5 * np.stack([twice[..., 2, 1], twice[..., 0, 2], twice[..., 1, 0]], axis=-1)
 
 
-def exp(omega: ArrayLike) -> FloatArray:
+@overload
+def exp(omega: checks.SymbolicMatrix) -> Any: ...
+@overload
+def exp(omega: ArrayLike) -> FloatArray: ...
+def exp(omega: Any) -> Any:
     """The rotation R = e^ω̂ = I + sin θ û + (1 - cos θ) û² (Rodrigues); MLS eq. 2.14.
 
     Args:
@@ -82,6 +104,10 @@ def exp(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
+    if checks.is_symbolic(omega):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.rotation(_symbolic.read(omega, (3, 1), "so3.exp", "omega"))
     axis, angle = _series.axis_angle(checks.read(omega, (3,), "so3.exp", "omega"))
     return _series.exp(axis, angle)
 
@@ -107,7 +133,11 @@ def log(R: ArrayLike) -> FloatArray:
     return _log(R)
 
 
-def inverse(R: ArrayLike) -> FloatArray:
+@overload
+def inverse(R: checks.SymbolicMatrix) -> Any: ...
+@overload
+def inverse(R: ArrayLike) -> FloatArray: ...
+def inverse(R: Any) -> Any:
     """Rᵀ, the inverse of a rotation. R is not checked.
 
     Args:
@@ -119,10 +149,18 @@ def inverse(R: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3.
     """
+    if checks.is_symbolic(R):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.read(R, (3, 3), "so3.inverse", "R").T
     return np.swapaxes(checks.read(R, (3, 3), "so3.inverse", "R"), -1, -2).copy()
 
 
-def adjoint(R: ArrayLike) -> FloatArray:
+@overload
+def adjoint(R: checks.SymbolicMatrix) -> Any: ...
+@overload
+def adjoint(R: ArrayLike) -> FloatArray: ...
+def adjoint(R: Any) -> Any:
     """Ad_R, which is R itself: R ω̂ Rᵀ is the hat of R ω; MLS lemma 2.1. R is not checked.
 
     Args:
@@ -134,10 +172,18 @@ def adjoint(R: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last two axes are not 3 by 3.
     """
+    if checks.is_symbolic(R):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.read(R, (3, 3), "so3.adjoint", "R")
     return checks.read(R, (3, 3), "so3.adjoint", "R").copy()
 
 
-def ad(omega: ArrayLike) -> FloatArray:
+@overload
+def ad(omega: checks.SymbolicMatrix) -> Any: ...
+@overload
+def ad(omega: ArrayLike) -> FloatArray: ...
+def ad(omega: Any) -> Any:
     """ad_ω, which is ω̂: the bracket [ω̂, â] = ω̂ â - â ω̂ is the hat of ω × a.
 
     Args:
@@ -149,6 +195,10 @@ def ad(omega: ArrayLike) -> FloatArray:
     Raises:
         InputError: if the last axis is not 3 long.
     """
+    if checks.is_symbolic(omega):
+        from pinscrew.lie import _symbolic
+
+        return _symbolic.skew(_symbolic.read(omega, (3, 1), "so3.ad", "omega"))
     return _series.skew(checks.read(omega, (3,), "so3.ad", "omega"))
 
 
