@@ -179,10 +179,10 @@ def poses(name: str, count: int = 2) -> tuple[ps.Robot, Any, Any]:
 FOREIGN = {
     "UR": lambda p, R: np.concatenate([p, R.as_rotvec()], axis=1),
     "KUKA A B C": lambda p, R: np.concatenate([1000.0 * p, R.as_euler("ZYX", degrees=True)], axis=1),
-    "Fanuc W P R": lambda p, R: np.concatenate([1000.0 * p, R.as_euler("xyz", degrees=True)], axis=1),
+    "Fanuc W P R, Yaskawa": lambda p, R: np.concatenate([1000.0 * p, R.as_euler("xyz", degrees=True)], axis=1),
     "ROS roll pitch yaw": lambda p, R: np.concatenate([p, R.as_euler("xyz")], axis=1),
     "Stäubli Rx Ry Rz": lambda p, R: np.concatenate([1000.0 * p, R.as_euler("XYZ", degrees=True)], axis=1),
-    "Kawasaki O A T": lambda p, R: np.concatenate([1000.0 * p, R.as_euler("ZYZ", degrees=True)], axis=1),
+    "Kawasaki O A T, Doosan": lambda p, R: np.concatenate([1000.0 * p, R.as_euler("ZYZ", degrees=True)], axis=1),
     "ABB, MuJoCo": lambda p, R: np.concatenate([1000.0 * p, R.as_quat()[:, [3, 0, 1, 2]]], axis=1),
     "ROS, scipy": lambda p, R: np.concatenate([p, -R.as_quat()], axis=1),
 }

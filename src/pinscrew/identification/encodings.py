@@ -22,10 +22,10 @@ Form: TypeAlias = Literal[
 VENDORS: Final = {
     ("rotation vector", "", "rad"): "UR",
     ("angles", "ZYX", "deg"): "KUKA A B C",
-    ("angles", "xyz", "deg"): "Fanuc W P R",
+    ("angles", "xyz", "deg"): "Fanuc W P R, Yaskawa",
     ("angles", "xyz", "rad"): "ROS roll pitch yaw",
     ("angles", "XYZ", "deg"): "Stäubli Rx Ry Rz",
-    ("angles", "ZYZ", "deg"): "Kawasaki O A T",
+    ("angles", "ZYZ", "deg"): "Kawasaki O A T, Doosan",
     ("quaternion wxyz", "", "rad"): "ABB, MuJoCo",
     ("quaternion xyzw", "", "rad"): "ROS, scipy",
 }
