@@ -13,8 +13,6 @@ from layering import MODULES, imports, inside, unit
 ALLOWED: Final = {
     "Element": "of a file, and of the algebra of sines and cosines; never in one sentence",
     "Place": "the same alias, written again for the child process that loads nothing of ours",
-    "Report": "of a verification, which users have, and of a derivation, inside that",
-    "Section": "of a report, in the reports of verification and in those of derivations",
 }
 
 

@@ -15,13 +15,13 @@ import pytest
 import pinscrew as ps
 from chromium import BROWSER, FLAGS
 from pinscrew.derivation import reports
-from pinscrew.derivation.blocks import Formula, Report
+from pinscrew.derivation.blocks import Formula, Writeup
 from pinscrew.derivation.parts import PARTS
 from pinscrew.ground.errors import InputError
 
 
 @cache
-def make(robot: str, convention: Any = "mls", tip: str | None = None) -> Report:
+def make(robot: str, convention: Any = "mls", tip: str | None = None) -> Writeup:
     d = ps.derive(ps.load(robot), tip, convention=convention)
     return reports.report(d, d.prove(10))
 
@@ -100,7 +100,7 @@ SEEN = """() => {
   }
   const text = maths.map(m => m.textContent).join(' ');
   return {count: maths.length, seen: boxes.filter(b => b.width > 3 && b.height > 5).length, ratios,
-          raw: /\\\\\\\\|begin|frac|&/.test(text), font: document.fonts.check('16px "Report Math"'),
+          raw: /\\\\\\\\|begin|frac|&/.test(text), font: document.fonts.check('16px "Writeup Math"'),
           cells: document.querySelectorAll('mtd').length, wide: document.body.scrollWidth > innerWidth};
 }"""
 

@@ -24,7 +24,7 @@ LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 
 
 @cache
-def report(name: str) -> reports.Report:
+def report(name: str) -> reports.Writeup:
     return reports.report(ps.derive(ps.load(name)), proof.Proof(0, 0, 0, (), None))
 
 

@@ -14,9 +14,9 @@ import pytest
 
 from pinscrew.ground.errors import DescriptionError, EngineError, PinscrewWarning, UnknownNameError, XacroError
 from pinscrew.reporting import (
+    Account,
     Document,
     Finding,
-    Section,
     cases_of,
     from_error,
     from_warning,
@@ -206,8 +206,8 @@ def test_annotations_of_any_name(name: str) -> None:
 
 def test_junit() -> None:
     found = {"arm": FOUND[:3], "good": [], "am": FOUND[3:], "b.urdf": [Finding("moved", "error", "it moved", "b", 2)]}
-    sections = tuple(Section(name, name, cases=cases_of(findings)) for name, findings in found.items())
-    text = to_junit(Document("pinscrew lock", sections=sections))
+    accounts = tuple(Account(name, name, cases=cases_of(findings)) for name, findings in found.items())
+    text = to_junit(Document("pinscrew lock", accounts=accounts))
     root = ET.fromstring(text.encode())  # noqa: S314 (our own)
     assert [suite.get("name") for suite in root] == ["arm", "good", "am", "b.urdf"]
     assert [root.get(name) for name in ("tests", "failures", "errors")] == ["4", "2", "1"]

@@ -222,5 +222,5 @@ def test_every_answer_is_a_document_that_every_format_takes(arm: Path) -> None:
         (sarif,) = json.loads(answer.to_sarif())["runs"]
         assert len(sarif["results"]) == len(document.findings) == answer.to_annotations().count("\n")
         assert answer.to_markdown().startswith("### ")
-        assert str(answer).startswith(document.sections[0].heading)
+        assert str(answer).startswith(document.accounts[0].heading)
         assert document.ok == (answer is answers[0])

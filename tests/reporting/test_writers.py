@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pinscrew.reporting import Document, ResultTable, Section, Sentence, Strong, to_markdown, to_text
+from pinscrew.reporting import Account, Document, ResultTable, Sentence, Strong, to_markdown, to_text
 
 FAULT = Sentence("the axis is turned", "fault", "axis-turned")
 NOTE = Sentence("it was called 'a'", "note", "joint-renamed")
@@ -10,12 +10,12 @@ REMARK = Sentence("tips come apart")
 TABLE = ResultTable(("check", ""), (("axes", Strong("FAIL")), ("names", "ok")))
 
 
-def section(*sentences: Sentence, table: ResultTable | None = None) -> Section:
-    return Section("arm", "arm: 1 change", table, sentences, notes_heading="Without a change:")
+def account(*sentences: Sentence, table: ResultTable | None = None) -> Account:
+    return Account("arm", "arm: 1 change", table, sentences, notes_heading="Without a change:")
 
 
 def test_markdown() -> None:
-    assert to_markdown(Document("t", sections=(section(FAULT, NOTE, REMARK),))).splitlines() == [
+    assert to_markdown(Document("t", accounts=(account(FAULT, NOTE, REMARK),))).splitlines() == [
         "### arm: 1 change",
         "",
         "- **axis-turned**: the axis is turned",
@@ -25,13 +25,13 @@ def test_markdown() -> None:
         "",
         "- joint-renamed: it was called 'a'",
     ]
-    assert "Without a change" not in to_markdown(Document("t", sections=(section(FAULT),)))
-    rows = to_markdown(Document("t", sections=(section(table=TABLE),))).splitlines()[2:]
+    assert "Without a change" not in to_markdown(Document("t", accounts=(account(FAULT),)))
+    rows = to_markdown(Document("t", accounts=(account(table=TABLE),))).splitlines()[2:]
     assert rows == ["| check | |", "|---|---|", "| axes | **FAIL** |", "| names | ok |"]
 
 
 def test_text() -> None:
-    document = Document("t", sections=(section(FAULT, NOTE, REMARK),), closing="1 of 2")
+    document = Document("t", accounts=(account(FAULT, NOTE, REMARK),), closing="1 of 2")
     assert to_text(document).split("\n") == [
         "arm: 1 change",
         "  the axis is turned",
@@ -39,4 +39,4 @@ def test_text() -> None:
         "  tips come apart",
         "1 of 2",
     ]
-    assert to_text(Document("t", sections=(section(table=TABLE),))) == "arm: 1 change\ncheck\naxes   FAIL\nnames  ok"
+    assert to_text(Document("t", accounts=(account(table=TABLE),))) == "arm: 1 change\ncheck\naxes   FAIL\nnames  ok"

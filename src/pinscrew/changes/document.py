@@ -10,7 +10,7 @@ from pinscrew.changes.outcome import Change, ChangesData, TipPlace
 from pinscrew.changes.wording import degrees, millimetres, number
 from pinscrew.ground.errors import PinscrewError
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Document, Role, Section, Sentence, cases_of
+from pinscrew.reporting.document import Account, Document, Role, Sentence, cases_of
 from pinscrew.reporting.findings import Finding, Level
 from pinscrew.reporting.troubles import from_error
 
@@ -31,25 +31,25 @@ TASK: Final = "pinscrew diff"
 
 
 def document(changes: ChangesData) -> Document:
-    """The changes as a document of one section."""
+    """The changes as a document of one account."""
     title = f"{changes.a} → {changes.b}"
     listed = findings(changes, title, changed="motion-changed", kept="motion-kept")
-    section = Section(
+    account = Account(
         title=title,
         heading=_summary(changes),
         lines=_lines(changes),
         notes_heading="Without a change of the motion:",
         cases=cases_of(listed),
     )
-    return Document(TASK, passes(changes), (section,), listed, _data(changes))
+    return Document(TASK, passes(changes), (account,), listed, _data(changes))
 
 
 def failure(title: str, error: PinscrewError) -> Document:
     """The document of a comparison that an error kept from being made."""
     finding = from_error(error, title)
     heading, line = f"{title}: could not be compared", Sentence(finding.message, "paragraph")
-    section = Section(title, heading, lines=(line,), cases=cases_of([finding]), tried=False)
-    return Document(TASK, ok=False, sections=(section,), findings=(finding,))
+    account = Account(title, heading, lines=(line,), cases=cases_of([finding]), tried=False)
+    return Document(TASK, ok=False, accounts=(account,), findings=(finding,))
 
 
 def passes(changes: ChangesData) -> bool:

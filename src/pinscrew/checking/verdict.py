@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pinscrew.ground.words import brief
-from pinscrew.reporting.document import Case, Document, Problem, ResultTable, Section, Sentence, Strong
+from pinscrew.reporting.document import Account, Case, Document, Problem, ResultTable, Sentence, Strong
 from pinscrew.reporting.documented import Documented
 
 __all__ = ["AnswerVerdict", "VerdictData"]
@@ -62,14 +62,14 @@ class AnswerVerdict(Documented, VerdictData):
             lines.append(Sentence("no single slip explains it"))
         lines += [Sentence(f"entry ({i}, {j}) is not read: {why}") for (i, j), why in self.unread]
         problem = None if self.right else Problem("failure" if self.entries else "error", word, "check")
-        section = Section(
+        account = Account(
             title=self.robot,
             heading=f"{self.quantity} of {self.robot}: {word}",
             table=ResultTable(("row", "column", "", "given", "expected"), tuple(rows)) if rows else None,
             lines=tuple(lines),
             cases=(Case(self.quantity, problem),),
         )
-        return Document("pinscrew check", bool(self.right), (section,), data=self.data())
+        return Document("pinscrew check", bool(self.right), (account,), data=self.data())
 
     def data(self) -> dict[str, Any]:
         """The verdict as JSON has it, schema ``pinscrew.check/1``."""

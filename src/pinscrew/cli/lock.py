@@ -186,8 +186,8 @@ def _check(words: Sequence[str], fail_on: frozenset[str] | None, wanted: Wanted)
                 errors.append((path, error))
             advance(1, str(path))
     outcome = document(checked, errors)
-    tried = tuple(section for section in outcome.sections if section.tried)  # errors go to standard error
-    click.echo(to_json(outcome) if wanted.as_json else to_text(replace(outcome, sections=tried)))
+    tried = tuple(account for account in outcome.accounts if account.tried)  # errors go to standard error
+    click.echo(to_json(outcome) if wanted.as_json else to_text(replace(outcome, accounts=tried)))
     for _, failure in errors:
         click.echo(f"pinscrew: {failure}", err=True)
     wanted.write(outcome)

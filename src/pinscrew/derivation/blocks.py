@@ -11,12 +11,12 @@ __all__ = [
     "Block",
     "Formula",
     "Paragraph",
-    "Report",
     "Section",
     "Sketch",
     "SketchLabel",
     "SketchLine",
     "Table",
+    "Writeup",
     "from_file",
     "named",
 ]
@@ -110,7 +110,7 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
+class Writeup:
     """A whole report; ``code`` is Python that makes the derivation again."""
 
     title: str

@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 import sympy as sp
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, Table, Writeup
 from pinscrew.derivation.errata_entries import SLIPS, Erratum, errata
 from pinscrew.derivation.errata_truth import truth
 from pinscrew.description import catalogue
@@ -95,7 +95,7 @@ def _evaluate(text: str, robot: Robot, q: FloatArray, qd: FloatArray, delta: Flo
     return np.broadcast_to(evaluate(formula, known), len(q))
 
 
-def report(robot: Robot) -> Report:
+def report(robot: Robot) -> Writeup:
     """The errata of a robot's coursework, each with what both engines say.
 
     Raises:
@@ -117,7 +117,7 @@ def report(robot: Robot) -> Report:
         ok = ok and all(verdict.ok for verdict in said)
         sections.append(Section("", f"erratum-{number}", f"{number}. {erratum.where}", tuple(_blocks(erratum, said))))
     code = f"import pinscrew as ps\n\nrobot = ps.load({robot.name!r})"
-    return Report(f"Errata of the coursework on {robot.name}", tuple(sections), code, ok)
+    return Writeup(f"Errata of the coursework on {robot.name}", tuple(sections), code, ok)
 
 
 def _blocks(erratum: Erratum, said: Iterable[Verdict]) -> Iterator[Block]:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from typing import Any, Final, TypeAlias
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Sketch, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, Sketch, Table, Writeup
 from pinscrew.derivation.sketch_formats import sketch_latex, sketch_svg
 from pinscrew.ground.escaping import latex, markdown
 
@@ -34,7 +34,7 @@ def aligned(formula: Formula) -> str:
     return rf"\begin{{aligned}} {first} &= " + r" \\ &= ".join(rest) + r" \end{aligned}"
 
 
-def to_markdown(report: Report) -> str:
+def to_markdown(report: Writeup) -> str:
     """The report as Markdown with LaTeX between dollars, as GitHub and Jupyter read it."""
     lines = [f"# {_markdown_text(report.title)}", ""]
     for section in report.sections:
@@ -87,7 +87,7 @@ _PREAMBLE: Final = r"""\documentclass[11pt]{article}
 """
 
 
-def to_latex(report: Report) -> str:
+def to_latex(report: Writeup) -> str:
     """The report as a LaTeX document that compiles by itself."""
     lines = [_PREAMBLE + rf"\section*{{{_text(report.title)}}}"]
     for section in report.sections:
@@ -126,7 +126,7 @@ def split_text(text: str, plain: Way, math: Way, code: Way, from_file: Way) -> s
     return "".join((*found, plain(text[end:])))
 
 
-def to_notebook(report: Report) -> str:
+def to_notebook(report: Writeup) -> str:
     """The report as a Jupyter notebook: its first cell makes the derivation, its last proves it again."""
     cells = [_cell("markdown", f"# {_markdown_text(report.title)}"), _cell("code", report.code)]
     for section in report.sections:

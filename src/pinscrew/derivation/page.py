@@ -8,7 +8,7 @@ import re
 from importlib.resources import files
 from typing import Final
 
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Section, Sketch, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, Sketch, Table, Writeup
 from pinscrew.derivation.formats import is_long, split_text
 from pinscrew.derivation.sketch_formats import sketch_svg
 from pinscrew.ground.errors import MissingExtraError
@@ -17,12 +17,12 @@ from pinscrew.ground.escaping import html as escape
 __all__ = ["to_html"]
 
 _STYLE: Final = """
-@font-face { font-family: "Report Math"; src: url(data:font/woff2;base64,FONT) format("woff2"); }
+@font-face { font-family: "Writeup Math"; src: url(data:font/woff2;base64,FONT) format("woff2"); }
 :root { color-scheme: light; --ink: #1a1a1a; --faint: #6b6b6b; --line: #d9d9d9; }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 2.5rem 1.5rem 5rem; max-width: 62rem; color: var(--ink); background: #fff;
   font: 1.06rem/1.6 Charter, "Bitstream Charter", "Source Serif 4", Georgia, "DejaVu Serif", serif; }
-math { font-family: "Report Math", math; }
+math { font-family: "Writeup Math", math; }
 h1 { font-size: 1.75rem; line-height: 1.25; font-weight: 600; margin: 0 0 1.2rem; }
 h2 { font-size: 1.2rem; font-weight: 600; margin: 2.8rem 0 0.6rem; padding-bottom: 0.25rem;
   border-bottom: 1px solid var(--line); }
@@ -74,7 +74,7 @@ for (const line of document.querySelectorAll(".lines > div")) {
 """Makes formulas that are wider than the page smaller; what is still wider scrolls."""
 
 
-def to_html(report: Report) -> str:
+def to_html(report: Writeup) -> str:
     """The report as one HTML file.
 
     Raises:

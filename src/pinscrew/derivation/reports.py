@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from pinscrew.derivation import formats, page
-from pinscrew.derivation.blocks import Block, Paragraph, Report, Section, Table, from_file, named
+from pinscrew.derivation.blocks import Block, Paragraph, Section, Table, Writeup, from_file, named
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.proof import Proof
@@ -21,7 +21,7 @@ from pinscrew.ground.errors import InputError
 __all__ = ["report", "write", "written"]
 
 
-def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extra: Sequence[Section] = ()) -> Report:
+def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extra: Sequence[Section] = ()) -> Writeup:
     """The report of a derivation.
 
     Args:
@@ -36,7 +36,7 @@ def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extr
     d = derivation
     listed = (_given(d), *sections(d, parts), *extra, _proof(proof))
     title = f"Closed-form kinematics of {from_file(d.robot.name)}"
-    return Report(title, listed, _code(d), proof.ok)
+    return Writeup(title, listed, _code(d), proof.ok)
 
 
 def _given(derivation: Derivation) -> Section:
@@ -111,7 +111,7 @@ _COUNTED: Final = "MATRICESREADBACK"
 """Stands for their number in the text until that has been read."""
 
 
-def written(derivation: Derivation, whole: Report, form: str) -> str:
+def written(derivation: Derivation, whole: Writeup, form: str) -> str:
     """A report as text that was read back, and says so: see `read_back`.
 
     Args:
@@ -134,7 +134,7 @@ def written(derivation: Derivation, whole: Report, form: str) -> str:
     return text.replace(_COUNTED, str(found.matrices))
 
 
-def write(report: Report, form: str) -> str:
+def write(report: Writeup, form: str) -> str:
     """A report as text.
 
     Args:
@@ -150,7 +150,7 @@ def write(report: Report, form: str) -> str:
     return _FORMATS[form](report)
 
 
-_FORMATS: Final[dict[str, Callable[[Report], str]]] = {
+_FORMATS: Final[dict[str, Callable[[Writeup], str]]] = {
     "markdown": formats.to_markdown,
     "latex": formats.to_latex,
     "notebook": formats.to_notebook,

@@ -6,7 +6,7 @@ import shutil
 import textwrap
 
 from pinscrew.derivation import unicode_math
-from pinscrew.derivation.blocks import Block, Formula, Paragraph, Report, Sketch, Table
+from pinscrew.derivation.blocks import Block, Formula, Paragraph, Sketch, Table, Writeup
 from pinscrew.derivation.formats import split_text
 from pinscrew.ground.escaping import terminal
 
@@ -16,7 +16,7 @@ LEAST, MOST = 40, 160
 """Columns that are used, whatever the terminal says."""
 
 
-def to_terminal(report: Report) -> str:
+def to_terminal(report: Writeup) -> str:
     """The report as text for the terminal that it is printed on."""
     columns = min(max(shutil.get_terminal_size().columns, LEAST), MOST)
     title = _text(report.title)

@@ -1,4 +1,4 @@
-"""Checked locks as a neutral document: a section for each, and what moved at the line of its joint."""
+"""Checked locks as a neutral document: an account for each, and what moved at the line of its joint."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pinscrew.changes.document import as_data, findings, sentences
 from pinscrew.changes.gates import failing_gate, let_pass
 from pinscrew.ground.errors import PinscrewError
 from pinscrew.lockfile.outcome import LockCheckData
-from pinscrew.reporting.document import Document, Section, Sentence, cases_of
+from pinscrew.reporting.document import Account, Document, Sentence, cases_of
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.troubles import from_error
 
@@ -36,7 +36,7 @@ def document(checked: Sequence[LockCheckData], errors: Sequence[tuple[Path, Pins
     return Document(
         task=TASK,
         ok=not errors and not failed,
-        sections=(*map(_section, checked), *(_unchecked(path, finding) for path, finding in failures)),
+        accounts=(*map(_account, checked), *(_unchecked(path, finding) for path, finding in failures)),
         findings=(*findings, *(finding for _, finding in failures)),
         data=_data(checked, errors),
         overview=f"pinscrew lock: {same} of {asked} mechanisms are those of their locks",
@@ -58,9 +58,9 @@ def _findings(check: LockCheckData) -> tuple[Finding, ...]:
     return findings(check.changes, str(check.lock), changed="moved", kept="placed-anew")
 
 
-def _section(check: LockCheckData) -> Section:
+def _account(check: LockCheckData) -> Account:
     outcome = "the same" if check.passes else "CHANGED" if check.same else "MOVED"
-    return Section(
+    return Account(
         title=str(check.lock),
         heading=f"{check.lock}: {outcome}",
         lines=() if check.changes is None else sentences(check.changes, placed=False),
@@ -68,8 +68,8 @@ def _section(check: LockCheckData) -> Section:
     )
 
 
-def _unchecked(path: Path, finding: Finding) -> Section:
-    return Section(
+def _unchecked(path: Path, finding: Finding) -> Account:
+    return Account(
         title=str(path),
         heading=f"{path}: could not be checked",
         lines=(Sentence(finding.message, "paragraph"),),

@@ -7,7 +7,7 @@ one such function.
 
 from __future__ import annotations
 
-from pinscrew.reporting.document import Case, Document, Problem, ResultTable, Section, Sentence, Strong, cases_of
+from pinscrew.reporting.document import Account, Case, Document, Problem, ResultTable, Sentence, Strong, cases_of
 from pinscrew.reporting.documented import Documented
 from pinscrew.reporting.findings import RULES, Finding, Level
 from pinscrew.reporting.github import to_annotations
@@ -20,6 +20,7 @@ from pinscrew.reporting.troubles import from_error, from_warning
 
 __all__ = [
     "RULES",
+    "Account",
     "Case",
     "Document",
     "Documented",
@@ -27,7 +28,6 @@ __all__ = [
     "Level",
     "Problem",
     "ResultTable",
-    "Section",
     "Sentence",
     "Strong",
     "cases_of",

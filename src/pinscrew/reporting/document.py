@@ -4,7 +4,7 @@ Rooms make documents (of a verification, of a comparison, of checked locks), and
 any of them::
 
     Document ─┬─ task, ok, overview, closing, data (the JSON)
-              ├─ Section … one robot, lock or comparison: heading, table, lines, cases
+              ├─ Account … one robot, lock or comparison: heading, table, lines, cases
               └─ Finding … one thing to tell about a file, at its line
 """
 
@@ -16,7 +16,7 @@ from typing import Any, Literal, TypeAlias
 
 from pinscrew.reporting.findings import RULES, Finding
 
-__all__ = ["Case", "Document", "Problem", "ResultTable", "Role", "Section", "Sentence", "Strong", "cases_of"]
+__all__ = ["Account", "Case", "Document", "Problem", "ResultTable", "Role", "Sentence", "Strong", "cases_of"]
 
 Role: TypeAlias = Literal["fault", "note", "remark", "paragraph"]
 """What a line is: what is wrong, what is only noted, what explains either, or text for itself."""
@@ -38,7 +38,7 @@ class ResultTable:
 
 @dataclass(frozen=True, slots=True)
 class Sentence:
-    """One sentence of a section.
+    """One sentence of an account.
 
     Attributes:
         text: the sentence.
@@ -70,7 +70,7 @@ class Case:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class Account:
     """What there is to tell about one robot, lock or comparison.
 
     Attributes:
@@ -99,17 +99,17 @@ class Document:
     Attributes:
         task: what was done, such as ``"pinscrew verify"``.
         ok: the verdict.
-        sections: one for each robot, lock or comparison.
+        accounts: one for each robot, lock or comparison.
         findings: what there is to tell at lines of files.
         data: the whole as JSON has it, with its ``"schema"``.
-        overview: one line about all sections, where they are many and alike; Markdown then has it and one table of
-            the findings, in the place of the sections.
+        overview: one line about all accounts, where they are many and alike; Markdown then has it and one table of
+            the findings, in the place of the accounts.
         closing: the last line of the text: how many there were, and how to go on.
     """
 
     task: str
     ok: bool = True
-    sections: tuple[Section, ...] = ()
+    accounts: tuple[Account, ...] = ()
     findings: tuple[Finding, ...] = ()
     data: Mapping[str, Any] = field(default_factory=dict)
     overview: str = ""

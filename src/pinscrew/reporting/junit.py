@@ -11,19 +11,19 @@ __all__ = ["to_junit"]
 
 
 def to_junit(document: Document) -> str:
-    """A suite for each section, with its cases."""
+    """A suite for each account, with its cases."""
     root = ET.Element("testsuites", name=document.task)
     totals = {"tests": 0, "failures": 0, "errors": 0}
-    for section in document.sections:
-        cases = section.cases or (Case(document.task),)
+    for account in document.accounts:
+        cases = account.cases or (Case(document.task),)
         problems = [case.problem.kind for case in cases if case.problem is not None]
         counts = {"tests": len(cases), "failures": problems.count("failure"), "errors": problems.count("error")}
-        suite = ET.SubElement(root, "testsuite", name=section.title, skipped="0")
+        suite = ET.SubElement(root, "testsuite", name=account.title, skipped="0")
         for count, value in counts.items():
             suite.set(count, str(value))
             totals[count] += value
         for case in cases:
-            element = ET.SubElement(suite, "testcase", classname=f"pinscrew.{section.title}", name=case.name)
+            element = ET.SubElement(suite, "testcase", classname=f"pinscrew.{account.title}", name=case.name)
             if case.problem is not None:
                 problem = case.problem
                 child = ET.SubElement(element, problem.kind, message=problem.message, type=problem.type)

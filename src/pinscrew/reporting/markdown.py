@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from pinscrew.ground.escaping import markdown
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Document, ResultTable, Section, Sentence, Strong
+from pinscrew.reporting.document import Account, Document, ResultTable, Sentence, Strong
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.paths import below
 
@@ -14,22 +14,22 @@ __all__ = ["to_markdown"]
 
 
 def to_markdown(document: Document) -> str:
-    """A heading for each section with its table and sentences; or the overview, and a table of the findings."""
+    """A heading for each account with its table and sentences; or the overview, and a table of the findings."""
     if document.overview:
         return "\n".join([f"### {_plain(document.overview)}", "", *_findings(document.findings)])
-    return "\n".join(line for section in document.sections for line in _section(section))
+    return "\n".join(line for account in document.accounts for line in _account(account))
 
 
-def _section(section: Section) -> Iterator[str]:
-    yield from (f"### {_plain(section.heading)}", "")
-    if section.table is not None:
-        yield from (*_table(section.table), "")
-    notes = [line for line in section.lines if line.role == "note" and section.notes_heading]
-    others = [line for line in section.lines if line not in notes]
+def _account(account: Account) -> Iterator[str]:
+    yield from (f"### {_plain(account.heading)}", "")
+    if account.table is not None:
+        yield from (*_table(account.table), "")
+    notes = [line for line in account.lines if line.role == "note" and account.notes_heading]
+    others = [line for line in account.lines if line not in notes]
     if others:
         yield from (*map(_line, others), "")
     if notes:
-        yield from (_plain(section.notes_heading), "", *map(_line, notes), "")
+        yield from (_plain(account.notes_heading), "", *map(_line, notes), "")
 
 
 def _line(line: Sentence) -> str:

@@ -6,23 +6,23 @@ from collections.abc import Iterator
 
 from pinscrew.ground.escaping import terminal
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Document, ResultTable, Section
+from pinscrew.reporting.document import Account, Document, ResultTable
 
 __all__ = ["to_text"]
 
 
 def to_text(document: Document) -> str:
-    """The sections one after the other, and the closing line; without a line break at the end."""
-    lines = [line for section in document.sections for line in _section(section)]
+    """The accounts one after the other, and the closing line; without a line break at the end."""
+    lines = [line for account in document.accounts for line in _account(account)]
     return "\n".join([*lines, document.closing] if document.closing else lines)
 
 
-def _section(section: Section) -> Iterator[str]:
-    yield terminal(one_line(section.heading))
-    if section.table is not None:
-        yield from _table(section.table)
-    indent = "" if section.table is not None else "  "
-    for line in section.lines:
+def _account(account: Account) -> Iterator[str]:
+    yield terminal(one_line(account.heading))
+    if account.table is not None:
+        yield from _table(account.table)
+    indent = "" if account.table is not None else "  "
+    for line in account.lines:
         yield terminal(f"{indent}{'note: ' * (line.role == 'note')}{one_line(line.text)}")
 
 

@@ -1,4 +1,4 @@
-"""Reports as a neutral document: a section for each, the checks as cases, the blame as findings at its lines."""
+"""Reports as a neutral document: an account for each, the checks as cases, the blame as findings at its lines."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Final
 from pinscrew.ground.errors import PinscrewError, PinscrewWarning
 from pinscrew.ground.version import version_of
 from pinscrew.ground.words import one_line
-from pinscrew.reporting.document import Case, Document, Problem, ResultTable, Section, Sentence, Strong
+from pinscrew.reporting.document import Account, Case, Document, Problem, ResultTable, Sentence, Strong
 from pinscrew.reporting.findings import Finding
 from pinscrew.reporting.troubles import from_error, from_warning
 from pinscrew.verification.outcome import Check, ReportData
@@ -47,13 +47,13 @@ class Attempt:
 
 
 def document(attempts: Sequence[Attempt]) -> Document:
-    """The attempts as a document: the sections of all reports, then those of what could not be verified."""
-    sections = [_section(report) for attempt in attempts for report in attempt.reports]
-    sections += [_unverified(attempt.robot, error) for attempt in attempts for error in attempt.errors]
+    """The attempts as a document: the accounts of all reports, then those of what could not be verified."""
+    accounts = [_account(report) for attempt in attempts for report in attempt.reports]
+    accounts += [_unverified(attempt.robot, error) for attempt in attempts for error in attempt.errors]
     return Document(
         task=TASK,
         ok=all(attempt.ok for attempt in attempts),
-        sections=tuple(sections),
+        accounts=tuple(accounts),
         findings=tuple(finding for attempt in attempts for finding in _findings(attempt)),
         data=_data(attempts),
     )
@@ -68,9 +68,9 @@ def table(report: ReportData) -> ResultTable:
     return ResultTable(("check", "error", "tolerance", "", "largest at"), tuple(rows))
 
 
-def _section(report: ReportData) -> Section:
+def _account(report: ReportData) -> Account:
     robot, engines = report.robot, " and ".join(report.engines)
-    return Section(
+    return Account(
         # The engines are named where they are not those that `verify` compares unless told otherwise.
         title=robot if engines == "PoE and Pinocchio" else f"{robot} ({engines})",
         heading=summary(report),
@@ -80,8 +80,8 @@ def _section(report: ReportData) -> Section:
     )
 
 
-def _unverified(robot: str, error: PinscrewError) -> Section:
-    return Section(
+def _unverified(robot: str, error: PinscrewError) -> Account:
+    return Account(
         title=robot,
         heading=f"{robot}: could not be verified",
         lines=(Sentence(str(error), "paragraph"),),
