@@ -54,6 +54,16 @@ class Reader(html.parser.HTMLParser):
 
 
 @EVERY
+def test_xml_document(text: str) -> None:
+    """What stands in a document as it is, not as references, is read as before, and a terminal or a log obeys none."""
+    text = re.sub("[^\t\n -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "", text)
+    raw = f"<a>{text.replace('&', '&amp;').replace('<', '&lt;').replace('>', '&gt;')}</a>"
+    safe = escaping.xml_document(raw)
+    assert ET.fromstring(safe).text == ET.fromstring(raw).text  # noqa: S314
+    assert not re.search("[\x7f-\x9f\u202a-\u202e\u2066-\u2069]|^\\s*::|##\\w*\\[", safe, re.MULTILINE)
+
+
+@EVERY
 def test_html(text: str) -> None:
     safe = escaping.html(text)
     page = Reader(f"<p title=\"{safe}\" lang='{safe}'>{safe}</p>")

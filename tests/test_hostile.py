@@ -15,16 +15,21 @@ import re
 import subprocess
 import tokenize
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from pathlib import Path
 from shutil import which
 from typing import Any, Final
 from xml.etree import ElementTree as ET
 
+import click
+import numpy as np
 import pytest
 
 from broken import Altered
 from command_line import Done, run
 from hostile import NAMES, SCRIPT, xml_attribute
+from pinscrew.cli import _COMMANDS
+from pinscrew.cli.output import FILE
 from pinscrew.engines.pinocchio import Pinocchio
 from pinscrew.ground.escaping import visible
 from pinscrew.ground.words import one_line
@@ -113,6 +118,11 @@ def of_json(text: str) -> list[str]:
     return list(strings(json.loads(text, parse_constant=pytest.fail)))
 
 
+def of_npz(text: str) -> list[str]:
+    """Of the metadata, which no terminal sees."""
+    return of_json(json.dumps(json.loads(text)))
+
+
 def of_sarif(text: str) -> list[str]:
     strings = [re.sub(r"\{\{(\d+)\}\}", r"{\1}", string) for string in of_json(text)]
     return [*strings, *(string.replace("\\[", "[") for string in strings)]
@@ -130,6 +140,11 @@ def of_xml(text: str) -> list[str]:
     root = ET.fromstring(text.encode())  # noqa: S314 (our own)
     texts = [part for element in root.iter() for part in (element.text, element.tail, *element.attrib.values())]
     return [part for part in texts if part]
+
+
+def of_urdf(text: str) -> list[str]:
+    assert [line for line in text.split("\n") if not line.isprintable() or line.lstrip().startswith("::")] == []
+    return of_xml(text)
 
 
 def of_markdown(text: str) -> list[str]:
@@ -238,7 +253,7 @@ def of_notebook(text: str) -> list[str]:
 
 # ------------------------------------------------------------------------------------------------ all names at once
 
-DATA: Final[set[Reader]] = {of_json, of_csv}
+DATA: Final[set[Reader]] = {of_json, of_npz, of_csv, of_urdf}
 REPORTS: Final[dict[str, Reader]] = {"junit": of_xml, "markdown": of_markdown, "sarif": of_sarif}
 
 COMMANDS: Final[list[tuple[str, tuple[str, ...], Reader]]] = [
@@ -255,6 +270,18 @@ COMMANDS: Final[list[tuple[str, tuple[str, ...], Reader]]] = [
     ("track", ("--profile", "profile.csv", "--method", "pinv"), of_a_terminal),
     ("track", ("--profile", "profile.csv", "--method", "pinv", "--csv", "OUT.csv"), of_csv),
     ("workspace", ("--samples", "5", "--json"), of_json),
+    ("workspace", ("--samples", "5", "--npz", "OUT.npz"), of_npz),
+    ("workspace", ("--samples", "5", "--jobs", "1", "--map", "OUT.npz"), of_npz),
+    ("velocity", ("--qd", "RATES", "--json"), of_json),
+    ("dh", (), of_a_terminal),
+    ("dh", ("--json",), of_json),
+    ("dh", ("--format", "csv"), of_csv),
+    ("dh", ("--format", "markdown"), of_markdown),
+    ("dh", ("--format", "latex"), of_latex),
+    ("dh", ("--format", "python"), of_python),
+    ("dh", ("--format", "matlab"), commented("%")),
+    ("expand", (), of_urdf),
+    ("expand", ("--sources", "-o", "OUT.urdf"), of_urdf),
     ("diff", ("turned.urdf",), of_a_terminal),
     ("diff", ("turned.urdf", "--json"), of_json),
     ("diff", ("turned.urdf", "--github"), of_github),
@@ -303,7 +330,7 @@ def test_all_at_once(
 ) -> None:
     monkeypatch.chdir(folder)
     monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
-    words = tuple(str(tmp_path / word) if word.startswith("OUT") else word for word in words)
+    words = tuple(str(tmp_path / word) if word.startswith("OUT") else word for word in filled(words, names))
     if "--check" in words:
         monkeypatch.chdir(tmp_path)
         for text in (folder / "turned.urdf", folder / "arm.urdf"):
@@ -387,6 +414,7 @@ def test_one_by_one(
     header = io.StringIO()
     csv.writer(header).writerow(["t", name])
     Path("profile.csv").write_text(f"{header.getvalue()}0,0.1\n0.01,0.1\n", newline="")
+    words = filled(words, [name])
     done = run(command, "arm.urdf", *words)
     assert done.status in (0, 1), done.err
     texts = reader(written(done, words))
@@ -427,7 +455,61 @@ def test_disagreements(words: tuple[str, ...], reader: Reader, tmp_path: Path, m
 def written(done: Done, words: tuple[str, ...]) -> str:
     """What a command with these words wrote, to a file, to standard output or, for GitHub, to standard error."""
     out = next((Path(word) for word in words if word.split("/")[-1].startswith("OUT")), None)
+    if out is not None and out.suffix == ".npz":
+        with np.load(out, allow_pickle=False) as arrays:
+            assert [name for name in arrays if not name.isidentifier()] == []
+            return str(arrays["metadata"])
     return out.read_bytes().decode() if out else done.err if "--github" in words else done.out
+
+
+def filled(words: tuple[str, ...], names: list[str]) -> tuple[str, ...]:
+    """The words with a rate for each joint where these are to stand."""
+    return tuple(",".join(["0.1"] * len(names)) if word == "RATES" else word for word in words)
+
+
+# ------------------------------------------------------------------------------------------------ command lines
+
+WORDS: Final = {
+    "lone surrogates": "a\udc80b\udcff",  # of bytes that are no UTF-8: an argument has no others
+    "line breaks": "a\n::error::trapped\r\n##[error]",
+    "escapes": "\x1b[31m\x9b0m\u202e",
+    "5000 digits": "9" * 5000,
+}
+OPTIONS: Final = [
+    pytest.param(
+        command,
+        option,
+        id=f"{command} {option}",
+        marks=() if command == "derive" or option is None else pytest.mark.slow,
+    )
+    for command, module in _COMMANDS.items()
+    for option in (
+        None,
+        *(
+            option.opts[-1]
+            for option in import_module(module).command.params
+            if isinstance(option, click.Option) and not option.is_flag and option.type is not FILE
+        ),
+    )
+]
+
+
+@pytest.mark.parametrize(("command", "option"), OPTIONS)
+def test_words(command: str, option: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is no robot, and no value, of each command: one short line says so, as it may be shown."""
+    monkeypatch.chdir(tmp_path)
+    Path("arm.urdf").write_text(arm(["one"]))
+    for word in WORDS.values():
+        words = ("arm.urdf", word) if option is None else ("arm.urdf", f"{option}={word}")
+        if command in ("diff", "verify", "lock") and option is None:
+            words = (word, "arm.urdf")
+        done = run(command, *words)
+        assert (done.status, done.out.count("\n") < 10) == (2, True), done
+        lines = done.err.removesuffix("\n").split("\n")
+        assert lines[-1].startswith(("Error: ", "pinscrew: "))
+        assert len(lines) <= 4
+        assert [line for line in lines if not line.isprintable() or len(line) > 2000] == []
+        assert [line for line in lines if line.startswith("::") or "##[" in line] == []
 
 
 # ------------------------------------------------------------------------------------------------ figures

@@ -19,7 +19,8 @@ import click
 from pinscrew import __version__
 from pinscrew.cli.endings import heard
 from pinscrew.cli.output import say
-from pinscrew.ground.errors import PinscrewError, PinscrewWarning
+from pinscrew.ground.errors import LONGEST, PinscrewError, PinscrewWarning
+from pinscrew.ground.words import brief, one_line
 
 __all__ = ["command", "main"]
 
@@ -144,7 +145,8 @@ def _run() -> int:
     except click.ClickException as error:
         shown = io.StringIO()
         error.show(shown)
-        say(*shown.getvalue().expandtabs().rstrip("\n").split("\n"), err=True)
+        usage, _, what = f"\n{shown.getvalue()}".partition("\nError: ")
+        say(*usage.split("\n")[1:], f"Error: {one_line(brief(what, LONGEST))}", err=True)
         return error.exit_code
     except (click.Abort, KeyboardInterrupt):
         return INTERRUPTED

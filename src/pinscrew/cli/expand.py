@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from pinscrew.cli import arguments, output
-from pinscrew.ground.escaping import json_text
+from pinscrew.ground.escaping import json_text, xml_document
 
 __all__ = ["command"]
 
@@ -41,4 +41,5 @@ def command(words: tuple[str, ...], file: Path | None, *, sources: bool, as_json
     if file is not None:
         output.write_file(file, text)
     else:
+        text = text if as_json else xml_document(text)
         click.echo(text, nl=not text.endswith("\n"))

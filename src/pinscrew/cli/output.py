@@ -28,13 +28,13 @@ UNSEEN_WIDTH: Final = 160
 class _Output(click.Path):
     """A file to write: one that can't be written is refused before any work."""
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
-        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:  # noqa: ARG002
+        path = Path(os.fsdecode(value))
         files.check(path)
         return path
 
 
-FILE: Final = _Output(readable=False)
+FILE: Final = _Output()
 """The type of an option that names a file to write."""
 
 

@@ -12,7 +12,8 @@ as Python's escape for it: a line break as ``\n``, an override of the direction 
 format                       function
 ===========================  =================================================================================
 HTML: text, attribute        `html`
-XML, SVG, MathML             `xml`; `xml_characters` for writers such as ElementTree that know the rest; `mathml`
+XML, SVG, MathML             `xml`; `xml_characters` for writers such as ElementTree that know the rest; `mathml`;
+                             `xml_document` for a whole file on a terminal
 JSON, SARIF                  `json_text`; `json_in_script` inside a ``<script>``; `sarif_message`
 Markdown: text, cell, title  `markdown`
 LaTeX: text                  `latex`
@@ -47,6 +48,7 @@ __all__ = [
     "visible",
     "xml",
     "xml_characters",
+    "xml_document",
 ]
 
 _NOT_XML: Final = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -58,6 +60,9 @@ _COMMAND: Final = re.compile(r"^(?=\s*::)(\s*):|#(?=#\w*\[)")
 ``::name`` at the start of a line and ``##[name]`` anywhere are GitHub's (`ActionCommand.TryParseV2`, `TryParse` of
 actions/runner), ``##vso[…]`` is Azure's, ``##teamcity[…]`` TeamCity's.
 """
+
+_OBEYED: Final = re.compile("[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb]")
+"""Controls and directions of writing that a terminal or an editor obeys."""
 
 
 def visible(text: str) -> str:
@@ -119,6 +124,15 @@ _REFERENCES: Final = (
 )
 
 
+def xml_document(text: str) -> str:
+    """A whole document of XML for a terminal or a log, of which a parser reads the same: see `terminal`.
+
+    References stand for what a terminal or a runner of CI would obey; comments have none, but are no data either.
+    """
+    lines = _OBEYED.sub(lambda match: f"&#{ord(match[0])};", text).split("\n")
+    return "\n".join(_COMMAND.sub(lambda match: f"{match[0][:-1]}&#{ord(match[0][-1])};", line) for line in lines)
+
+
 def mathml(text: str) -> str:
     """Text in MathML within HTML: both read it, so it is XML's rules that hold."""
     return xml(text)
@@ -129,9 +143,7 @@ def xml_characters(text: str) -> str:
     return _NOT_XML.sub("\ufffd", text)
 
 
-_UNSEEN: Final = re.compile(
-    "[\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff\ufeff\ufff9-\ufffb]|#(?=#\\w*\\[)"
-)
+_UNSEEN: Final = re.compile(f"{_OBEYED.pattern}|[\ud800-\udfff]|#(?=#\\w*\\[)")
 
 
 def json_text(value: Any, indent: int | None = 2) -> str:
