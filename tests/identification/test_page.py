@@ -14,9 +14,14 @@ PAGE = (Path(__file__).parents[2] / "docs" / "identify.md").read_text(encoding="
 
 
 def test_the_page(tmp_path: Path) -> None:
-    scope: dict[str, object] = {}
-    for block in re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL):
-        exec(block, scope)  # noqa: S102 (the page's own code)
+    printed: list[str] = []
+    scope: dict[str, object] = {"print": lambda each: printed.append(str(each))}
+    code = "".join(re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL))
+    exec(code, scope)  # noqa: S102 (the page's own code)
+    said = re.findall(r"^print\(.*\)  # (.*)$", code, re.MULTILINE)
+    assert len(said) == len(printed) == 9
+    for line, claimed in zip(printed, said, strict=True):
+        assert line == claimed or (claimed.endswith(" …") and line.startswith(claimed[:-2])), claimed
     assert np.allclose(np.asarray(scope["ours"]), np.asarray(scope["J"]), atol=1e-12)
     table, archive = tmp_path / "J.csv", tmp_path / "samples.npz"
     q = [0.3, -1.0, 0.5, 0.2, 0.4, 0.1]
