@@ -10,6 +10,7 @@ import pytest
 
 import closed_forms as cf
 import pinscrew as ps
+import urdfs
 from pinscrew.ground.errors import InputError
 from pinscrew.motion.inverse_velocity import rate_bounds
 
@@ -237,6 +238,18 @@ def test_bounds_from_limits() -> None:
     low, high = rate_bounds(robot, q, 0.1)
     assert (q + 0.1 * low >= lower - 1e-15).all()
     assert (q + 0.1 * high <= upper + 1e-15).all()
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "limit", "allowed"),
+    [(2.0, 1.0, 0.5), (-4.0, 1.0, 0.25), (0.5, 1.0, 1.0), (2.0, 5.0, 1.0), (0, 1, 1)],
+)
+def test_bounds_of_joints_that_others_follow(multiplier: float, limit: float, allowed: float) -> None:
+    """|m| |θ̇| may be no more than the follower's limit of speed, nor |θ̇| than the joint's own, which is 1."""
+    follower = urdfs.joint("b", "revolute", "one", "two", mimic=("a", multiplier, 0.3))
+    follower = follower.replace('velocity="1"', f'velocity="{limit}"')
+    robot = urdfs.load(urdfs.robot(urdfs.joint("a", "revolute", "base", "one"), follower, links="base one two"))
+    np.testing.assert_allclose(rate_bounds(robot, [0.0], 1e-3), [[-allowed], [allowed]])
 
 
 # ---------------------------------------------------------------------------------------------- bad inputs

@@ -175,8 +175,8 @@ def inverse_velocity(
 def rate_bounds(robot: Robot, q: ArrayLike, dt: float) -> tuple[FloatArray, FloatArray]:
     """Bounds of the rates that keep a robot within its limits over the next step, for `inverse_velocity`.
 
-    Both the joints' velocity limits and, over ``dt``, those of the coordinates. A coordinate outside its limits may
-    stay or come back.
+    Both the joints' velocity limits, those of joints that follow others among them, and, over ``dt``, those of the
+    coordinates. A coordinate outside its limits may stay or come back.
 
     Args:
         robot: a robot without floating and planar joints.
@@ -197,8 +197,10 @@ def rate_bounds(robot: Robot, q: ArrayLike, dt: float) -> tuple[FloatArray, Floa
     step = _positive(dt, "dt")
     speeds = np.full(robot.nv, np.inf)
     for motion in robot.mechanism.motions:
-        if motion.joint.mimic is None:
-            speeds[motion.v] = motion.joint.limits.velocity
+        if motion.multiplier != 0.0:
+            # A follower moves at m θ̇, and its own limit holds too: |m| |θ̇| ≤ limit.
+            own = motion.joint.limits.velocity / abs(motion.multiplier)
+            speeds[motion.v] = min(speeds[motion.v], own)
     lower, upper = robot.limits.T
     # q + θ̇ dt stays within [lower, upper]; 0 stays allowed for a coordinate that is outside already.
     return (
