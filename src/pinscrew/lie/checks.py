@@ -32,7 +32,8 @@ class SymbolicMatrix(Protocol):
     """A matrix of sympy's."""
 
     @property
-    def free_symbols(self) -> Any: ...
+    def free_symbols(self) -> Any:
+        """Its unknowns."""
 
 
 def is_symbolic(value: object) -> bool:
