@@ -119,6 +119,7 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     file = tmp_path / "path" / "to" / "arm.urdf"
     file.parent.mkdir(parents=True)
     file.write_text(urdfs.rotated())
+    (tmp_path / "answers.md").write_text(r"$\xi_1 = (0, 0, 0, 0, 0, 1)$")
     lines = [line.strip() for name in _COMMANDS for line in ok(name, "--help").out.splitlines()]
     lines += [line.strip() for line in ok("--help").out.splitlines()]
     examples = {line for line in lines if line.startswith("pinscrew ")} - SLOW - SHOWN - IN_GIT - MEASURED
@@ -126,7 +127,9 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     for example in sorted(examples):
         alone = ["--jobs", "1"] if "--map" in example else []  # processes take seconds to start
         done = ok(*shlex.split(example)[1:], *alone)
-        written = [tmp_path / word for word in example.split() if word.endswith((".html", ".tex", ".ipynb", ".urdf"))]
+        written = [
+            tmp_path / word for word in example.split() if word.endswith((".html", ".tex", ".ipynb", ".urdf", ".md"))
+        ]
         assert done.out or (written and all(path.stat().st_size for path in written)), example
 
 

@@ -20,6 +20,7 @@ TAKE_A_ROBOT: Final[dict[str, Callable[[Any], Any]]] = {
     "PoE": lambda robot: ps.PoE(robot).fk(Q),
     "Pinocchio": lambda robot: ps.Pinocchio(robot).fk(Q),
     "check": lambda robot: str(ps.check(robot, "p", "[1, 2, 3]")),
+    "check_file": lambda robot: str(ps.check_file(robot, Path(__file__).parent / "data" / "answers.json")),
     "classify_singularity": lambda robot: ps.classify_singularity(robot, Q).singular_values,
     "derive": lambda robot: str(ps.derive(robot).pose),
     "diff": lambda robot: str(ps.diff(robot, "planar_2r")),

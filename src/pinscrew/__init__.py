@@ -23,6 +23,7 @@ from pinscrew.ground.version import __version__
 if TYPE_CHECKING:
     from pinscrew import lie
     from pinscrew.changes.run import Changes, diff
+    from pinscrew.checking.files import check_file
     from pinscrew.checking.run import check
     from pinscrew.derivation.run import derive
     from pinscrew.dh.robots import from_dh
@@ -74,6 +75,7 @@ __all__ = [
     "Trajectory",
     "__version__",
     "check",
+    "check_file",
     "classify_singularity",
     "derive",
     "diff",
@@ -115,6 +117,7 @@ _HOMES = {
     "Track": "pinscrew.motion.track",
     "Trajectory": "pinscrew.motion.trajectory",
     "check": "pinscrew.checking.run",
+    "check_file": "pinscrew.checking.files",
     "classify_singularity": "pinscrew.motion.singularity",
     "derive": "pinscrew.derivation.run",
     "diff": "pinscrew.changes.run",

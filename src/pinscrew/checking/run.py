@@ -19,7 +19,7 @@ from pinscrew.ground.errors import InputError, UnsupportedError
 from pinscrew.mathtext import Node, Operation, Symbol, read_latex, read_plain, symbols
 from pinscrew.robot.loading import RobotLike
 
-__all__ = ["check"]
+__all__ = ["check", "checkable", "definitions", "graded", "listed"]
 
 
 def check(robot: RobotLike, quantity: str, answer: Any, *, tip: str | None = None) -> AnswerVerdict:
@@ -39,30 +39,37 @@ def check(robot: RobotLike, quantity: str, answer: Any, *, tip: str | None = Non
         InputError: there is no such quantity, the answer is no matrix that can be read, or of another shape.
         UnsupportedError: joints follow others, or see `derive`.
     """
+    derivation = checkable(robot, tip)
+    matrix, defined = _answer(answer)
+    return graded(derivation, quantity_key(quantity, len(derivation.chain.joints)), matrix, defined)
+
+
+def checkable(robot: RobotLike, tip: str | None = None) -> Derivation:
+    """The closed forms that answers are held against.
+
+    Raises:
+        UnsupportedError: joints follow others, or see `derive`.
+    """
     derivation = derive(robot, tip)
     if derivation.follows:
         what = "joints that follow others move the frame: their answers are not checked"
         file = derivation.robot.description.file
         raise UnsupportedError("check-mimic", what, file=file, remedy="name a tip that none of them moves")
-    key = quantity_key(quantity, len(derivation.chain.joints))
-    right = right_form(derivation, key)
-    matrix, definitions = _answer(answer)
-    matrix = _shaped(matrix, right.shape, key)
-    return _verdict(derivation, key, matrix, definitions)
+    return derivation
 
 
 def _answer(answer: Any) -> tuple[Written, dict[str, Node]]:
     """The last matrix of an answer, or its last formula where there is none, and what was given names before."""
     if not isinstance(answer, str):
-        return _listed(answer), {}
+        return listed(answer), {}
     assigned = written(answer)
     if not assigned:
         raise InputError("formula", "the answer is empty", remedy="give a matrix in LaTeX, Python or MATLAB")
     wanted = [each for each in assigned if each.listed] or list(assigned)
-    return wanted[-1].matrix, _definitions(assigned[: assigned.index(wanted[-1])])
+    return wanted[-1].matrix, definitions(assigned[: assigned.index(wanted[-1])])
 
 
-def _definitions(assigned: tuple[Assigned, ...]) -> dict[str, Node]:
+def definitions(assigned: tuple[Assigned, ...]) -> dict[str, Node]:
     """Formulas that have names; one that can't be read is nothing that has a value, and no more."""
     found: dict[str, Node] = {}
     for each in assigned:
@@ -78,7 +85,12 @@ def _definitions(assigned: tuple[Assigned, ...]) -> dict[str, Node]:
     return found
 
 
-def _listed(answer: Any) -> Written:
+def listed(answer: Any) -> Written:
+    """An array, a matrix of sympy's or a list of lists as it would be written.
+
+    Raises:
+        InputError: it is none, or its rows differ in length.
+    """
     rows = answer.tolist() if hasattr(answer, "tolist") else answer
     if not isinstance(rows, (list, tuple)) or not rows:
         raise InputError("formula", f"an answer is a text or a matrix, not {type(answer).__name__}")
@@ -113,9 +125,21 @@ def _arrays(cell: str) -> set[str]:
     return {name for name in ("q", "theta", "th", "qd", "dq") if f"{name}[" in cell or f"{name}(" in cell}
 
 
-def _verdict(derivation: Derivation, key: str, matrix: Written, definitions: Mapping[str, Node]) -> AnswerVerdict:
+def graded(derivation: Derivation, key: str, matrix: Written, defined: Mapping[str, Node]) -> AnswerVerdict:
+    """The verdict on a matrix.
+
+    Args:
+        derivation: the closed forms; see `checkable`.
+        key: the quantity; see `quantity_key`.
+        matrix: the answer as it is written.
+        defined: formulas that it gives names to, in order.
+
+    Raises:
+        InputError: it has another shape than the quantity.
+    """
     scope, meanings = Scope(derivation), Meanings(derivation)
     right = right_form(derivation, key)
+    matrix = _shaped(matrix, right.shape, key)
     due = [[Quotient(scope.adopt(element), scope.one) for element in row] for row in right]
     nodes: dict[tuple[int, int], Node] = {}
     unread: dict[tuple[int, int], str] = {}
@@ -125,8 +149,8 @@ def _verdict(derivation: Derivation, key: str, matrix: Written, definitions: Map
                 nodes[i, j] = _read("-(" + cell + ")" if matrix.factor == "-" else cell, _unsigned(matrix))
             except InputError as error:
                 unread[i, j] = str(error)
-    names = {name for node in (*nodes.values(), *definitions.values()) for name in symbols(node)}
-    known = given(names, meanings, scope, definitions)
+    names = {name for node in (*nodes.values(), *defined.values()) for name in symbols(node)}
+    known = given(names, meanings, scope, defined)
     values: dict[tuple[int, int], Quotient] = {}
     for place, node in nodes.items():
         try:

@@ -14,7 +14,7 @@ from typing import Final, Literal
 from pinscrew.ground.errors import InputError
 from pinscrew.mathtext.tokens import CLOSING, LONGEST
 
-__all__ = ["Assigned", "Written", "is_latex", "written"]
+__all__ = ["Assigned", "Written", "closing", "is_latex", "parts", "written"]
 
 Language = Literal["latex", "plain", "matlab"]
 
@@ -108,8 +108,8 @@ def written(text: str) -> tuple[Assigned, ...]:
 
 def _latex(text: str) -> Iterator[Assigned]:
     text = re.sub(r"\\(?:begin|end)\{(?:aligned|align\*?|equation\*?|displaymath)\}|\\\[(?!\d)|\\\]|\\[()]", " ", text)
-    for formula in _parts(text, r"\n\s*\n|;(?=\s*\\?[A-Za-z])|,\s*\\q?quad"):
-        sides = list(_parts(formula, r"(?<![<>!:])=|:=|\\coloneqq|\\equiv"))
+    for formula in parts(text, r"\n\s*\n|;(?=\s*\\?[A-Za-z])|,\s*\\q?quad"):
+        sides = list(parts(formula, r"(?<![<>!:])=|:=|\\coloneqq|\\equiv"))
         last = sides[-1].strip().rstrip(".,;").strip().removesuffix(r"\\").strip()
         if not last:
             continue
@@ -128,7 +128,7 @@ def _latex_side(name: str, side: str) -> Assigned:
             if side[start:inner].endswith("array}")
             else side[inner:stop]
         )
-        rows = [[cell.strip() for cell in _parts(row, "&")] for row in _parts(body, r"\\\\(?:\s*\[[^\]]*\])?|\\cr\b")]
+        rows = [[cell.strip() for cell in parts(row, "&")] for row in parts(body, r"\\\\(?:\s*\[[^\]]*\])?|\\cr\b")]
         rows = [[re.sub(r"\\[hc]line(?:\{[^}]*\})?", "", cell).strip() for cell in row] for row in rows]
         rows = [row for row in rows if row != [""]]
         before = re.sub(r"\\left\s*[.\[({|]?$|\\[Bb]igg?l?\s*[\[({|]$|[\[({|]$", "", side[:start].strip()).strip()
@@ -168,7 +168,7 @@ def _environments(text: str) -> list[tuple[int, int, int, int]]:
 
 
 def _plain(text: str) -> Iterator[Assigned]:
-    for statement in _parts(re.sub(r"(?m)[#%].*$", "", text).replace("...\n", " "), r"\n|;"):
+    for statement in parts(re.sub(r"(?m)[#%].*$", "", text).replace("...\n", " "), r"\n|;"):
         line = statement.strip()
         if _PASSED.match(line):
             continue
@@ -185,31 +185,31 @@ def _plain_side(name: str, side: str) -> Assigned:
     opening = side[:1]
     rest = ""
     if opening and opening in "[(":
-        end = _closing(side)
+        end = closing(side)
         rest = side[end + 1 :].strip()
         rest = re.sub(r"^(?:,\s*[a-z]+\s*=\s*[\w.]+\s*)?\)+", "", rest).strip() if calls else rest
         if opening == "[" or (calls and opening == "("):
             return Assigned(name, _grid(side[1:end], rest), True)
-        if not rest and "," in side[1:end] and len(list(_parts(side[1:end], ","))) > 1:
+        if not rest and "," in side[1:end] and len(list(parts(side[1:end], ","))) > 1:
             return Assigned(name, _grid(side[1:end], rest), True)
     return Assigned(name, Written(((side,),), "plain"), False)
 
 
 def _grid(inside: str, after: str) -> Written:
     """The cells between brackets, as Python nests them or as MATLAB parts them."""
-    cells = [cell.strip() for cell in _parts(inside, ",")]
+    cells = [cell.strip() for cell in parts(inside, ",")]
     if cells and cells[-1] == "":
         cells.pop()
-    if cells and all(cell[:1] in "[(" and cell[:1] and _closing(cell) == len(cell) - 1 for cell in cells):
-        rows = [[cell.strip() for cell in _parts(row[1:-1], ",")] for row in cells]
+    if cells and all(cell[:1] in "[(" and cell[:1] and closing(cell) == len(cell) - 1 for cell in cells):
+        rows = [[cell.strip() for cell in parts(row[1:-1], ",")] for row in cells]
         if any(row[0][:1] == "[" for row in rows if row):
             raise InputError("formula", "a matrix in a matrix is not read")
         return _checked([row[:-1] if row[-1] == "" else row for row in rows], "plain", "", after)
-    lines = [line.strip() for line in _parts(re.sub(r",\s*\n", ", ", inside), r";|\n") if line.strip()]
+    lines = [line.strip() for line in parts(re.sub(r",\s*\n", ", ", inside), r";|\n") if line.strip()]
     found: list[list[str]] = []
     language: Language = "plain"
     for line in lines:
-        row = [cell.strip() for cell in _parts(line.rstrip(","), ",")]
+        row = [cell.strip() for cell in parts(line.rstrip(","), ",")]
         if len(row) == 1:
             row, language = _spaced(line), "matlab"
         found.append(row)
@@ -235,8 +235,8 @@ def _bracketed(text: str, separator: str) -> tuple[list[str], str] | None:
     """The cells of a list in brackets, and what follows it; None where it is none."""
     if text[:1] not in ("[", "("):
         return None
-    end = _closing(text)
-    cells = [cell.strip() for cell in _parts(text[1:end], separator)]
+    end = closing(text)
+    cells = [cell.strip() for cell in parts(text[1:end], separator)]
     after = text[end + 1 :].strip()
     listed = len(cells) > 1 and (not after or _TRANSPOSED.fullmatch(after))
     return (cells, after) if listed else None
@@ -257,7 +257,7 @@ def _checked(rows: list[list[str]], language: Language, factor: str, after: str)
     return Written(tuple(map(tuple, rows)), language, factor)
 
 
-def _parts(text: str, separator: str) -> Iterator[str]:
+def parts(text: str, separator: str) -> Iterator[str]:
     """What stands between separators that are in no bracket and no environment."""
     pattern = re.compile(rf"\\(?:begin|end)\{{[a-zA-Z]+\*?\}}|\\[{{}}|]|({separator})|[\[\](){{}}]")
     depth, last = 0, 0
@@ -274,7 +274,7 @@ def _parts(text: str, separator: str) -> Iterator[str]:
     yield text[last:]
 
 
-def _closing(text: str) -> int:
+def closing(text: str) -> int:
     """Where the bracket ends with which a text begins.
 
     Raises:

@@ -83,9 +83,12 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     help="Of the Jacobian in --code; geometric, as DH textbooks say, is hybrid.",
 )
 @click.option("--errata", is_flag=True, help="Show the mistakes of the printed coursework instead, and check them.")
+@click.option("--worksheet", is_flag=True, help="Write a worksheet to fill in instead, for `pinscrew check`.")
 @click.option("--samples", default=100, show_default=True, type=click.IntRange(1), help="Of the numerical proof.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the numerical proof.")
-def command(words: tuple[str, ...], form: str | None, target: Path | None, errata: bool, **options: Any) -> None:
+def command(
+    words: tuple[str, ...], form: str | None, target: Path | None, errata: bool, worksheet: bool, **options: Any
+) -> None:
     """Derive a frame's pose, velocities and Jacobians in closed form, step by step.
 
     Everything is exact and in symbols, and proved at the end: exit status 1 if it differs from either engine.
@@ -94,10 +97,14 @@ def command(words: tuple[str, ...], form: str | None, target: Path | None, errat
       pinscrew derive spherical
       pinscrew derive scara --format html -o scara.html
       pinscrew derive planar_rrr --part i --convention lynch-park
+      pinscrew derive scara --worksheet -o scara.md
       pinscrew derive path/to/arm.urdf --symbols --code c --kind hybrid
     """
     form = form or ("terminal" if target is None and sys.stdout.isatty() else "markdown")
-    text, ok = _errata(words, form) if errata else _report(words, form, **options)
+    if worksheet:
+        text, ok = _worksheet(words, form, options["tip"]), True
+    else:
+        text, ok = _errata(words, form) if errata else _report(words, form, **options)
     if target is None:
         click.echo(text, nl=not text.endswith("\n"))
     else:
@@ -159,6 +166,13 @@ def _written(derivation: Derivation, proof: Proof, form: str, parts: tuple[str, 
     if not proof.ok:  # what is wrong already is not held against the engines once more
         return reports.write(whole, form), False
     return reports.written(derivation, whole, form), True
+
+
+def _worksheet(words: tuple[str, ...], form: str, tip: str | None) -> str:
+    from pinscrew.checking.run import checkable
+    from pinscrew.checking.worksheet import worksheet
+
+    return worksheet(checkable(arguments.robot(words).load(), tip), form)
 
 
 def _errata(words: tuple[str, ...], form: str) -> tuple[str, bool]:

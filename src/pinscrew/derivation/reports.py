@@ -18,7 +18,7 @@ from pinscrew.derivation.terminal import to_terminal
 from pinscrew.derivation.typeset import Typesetter
 from pinscrew.ground.errors import InputError
 
-__all__ = ["report", "write", "written"]
+__all__ = ["given", "report", "write", "written"]
 
 
 def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extra: Sequence[Section] = ()) -> Writeup:
@@ -34,12 +34,12 @@ def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extr
         InputError: if there is no such part.
     """
     d = derivation
-    listed = (_given(d), *sections(d, parts), *extra, _proof(proof))
+    listed = (given(d), *sections(d, parts), *extra, _proof(proof))
     title = f"Closed-form kinematics of {from_file(d.robot.name)}"
     return Writeup(title, listed, _code(d), proof.ok)
 
 
-def _given(derivation: Derivation) -> Section:
+def given(derivation: Derivation) -> Section:
     """What the derivation starts from: the robot, its lengths and joints, and what was taken for what."""
     d = derivation
     t = Typesetter(d)

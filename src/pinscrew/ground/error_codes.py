@@ -101,6 +101,7 @@ ERRORS: Final[dict[str, str]] = {
     "read-back": "A report, once written, does not say what was proved: a mistake in pinscrew, please report it.",
     "check-quantity": "An answer is to be checked to a quantity that there is not.",
     "check-mimic": "An answer is to be checked of a frame that joints move which follow others.",
+    "check-file": "A file of answers is of a kind that is not read, is no JSON, or has too many formulas or answers.",
     "symbol-collision": "A symbol for a length has the name of another, of a joint's value, or of a sine or cosine.",
     "no-errata": "No printed coursework belongs to this robot.",
     "unwritable": "An output file can't be written.",

@@ -24,6 +24,7 @@ _GREEK: Final = {
     r"\beta",
     r"\gamma",
     r"\delta",
+    r"\ell",
     r"\theta",
     r"\vartheta",
     r"\phi",
