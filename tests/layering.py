@@ -33,7 +33,7 @@ OUTSIDE = {
     "yourdfpy": "description",
     "xacro": "description._xacro_worker",
     "pinocchio": "engines.pinocchio engines.pinocchio_model",
-    "mujoco": "witnesses.mujoco",
+    "mujoco": "witnesses.mujoco description._mjcf_worker",
     "roboticstoolbox": "witnesses.roboticstoolbox",
     "llvmlite": "engines.compiled",
     "sympy": "derivation checking lie._symbolic",

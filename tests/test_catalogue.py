@@ -249,7 +249,7 @@ def descriptions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     urdf = tmp_path / "arm.urdf"
     urdf.write_text('<robot name="arm"><link name="base"/></robot>')
     (package / "arm_description.py").write_text(f"URDF_PATH = {str(urdf)!r}")
-    (package / "muj_description.py").write_text("MJCF_PATH = 'x.xml'")
+    (package / "usd_description.py").write_text("USD_PATH = 'x.usd'")
     (package / "far_description.py").write_text("raise OSError('no network\\nat all')")
     monkeypatch.syspath_prepend(tmp_path)
     for name in [name for name in sys.modules if name.startswith("robot_descriptions")]:
@@ -261,7 +261,7 @@ def descriptions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_modules_of_robot_descriptions_are_names() -> None:
     assert ps.load("arm_description").frame_names == ("base",)
     for name, code, words in (
-        ("muj_description", "no-file", "has no URDF"),
+        ("usd_description", "no-file", "has no robot's file"),
         ("far_description", "unreadable", "does not get it (OSError: no network at all)"),
     ):
         with pytest.raises(DescriptionError) as caught:

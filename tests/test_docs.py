@@ -14,7 +14,7 @@ import pytest
 import pinscrew as ps
 from layering import MODULES
 
-SCRIPTS = {"__main__", "description._xacro_worker"}
+SCRIPTS = {"__main__", "description._mjcf_worker", "description._xacro_worker"}
 """Modules that run, and are not for import."""
 
 

@@ -92,15 +92,15 @@ def test_a_write_that_fails_keeps_the_old_lock(here: Path, monkeypatch: pytest.M
 @pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("name", ["scara", "panda", "no_such_robot"])
 def test_names_are_refused(name: str) -> None:
-    words = f"{name}: is no file, and a lock stands beside its robot's file; give the path of a .urdf or .xacro"
+    words = f"{name}: is no file, and a lock stands beside its robot's file; give the path of a .urdf, .xacro or .xml"
     assert refused("lock", name) == refused("lock", "--check", name) == words
 
 
 def test_other_suffixes(here: Path) -> None:
-    (here / "arm.xml").write_text(urdfs.rotated())
-    assert "name the lock with --output, such as arm.urdf.lock" in refused("lock", "arm.xml")
-    assert "so --check would not find it" in refused("lock", "arm.xml", "--output", "arm.lock")
-    ok("lock", "arm.xml", "--output", "other.urdf.lock")
+    (here / "arm.txt").write_text(urdfs.rotated())
+    assert "name the lock with --output, such as arm.urdf.lock" in refused("lock", "arm.txt")
+    assert "so --check would not find it" in refused("lock", "arm.txt", "--output", "arm.lock")
+    ok("lock", "arm.txt", "--output", "other.urdf.lock")
     assert "other.urdf.lock: the same" in ok("lock", "--check").out
 
 

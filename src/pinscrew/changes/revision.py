@@ -51,7 +51,7 @@ def taken_out(source: str) -> Iterator[Path]:
         )
     with tempfile.TemporaryDirectory(prefix="pinscrew-") as folder:
         root = Path(folder).resolve()
-        if path.endswith(".xacro"):
+        if path.endswith((".xacro", ".xml")):
             _unpack(top, source, commit, root)
         target = root / path
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -102,7 +102,7 @@ def _kind(top: Path, source: str, commit: str, path: str) -> str:
 
 
 def _unpack(top: Path, source: str, commit: str, root: Path) -> None:
-    """All files of a commit but meshes and pictures: a xacro file may include any of them."""
+    """All files of a commit but meshes and pictures: a xacro file or an MJCF may include any of them."""
     without = [f":(exclude,icase,glob)**/*.{suffix}" for suffix in _NOT_NEEDED]
     archive = _git(top, source, "archive", "--format=zip", commit, "--", ".", *without)
     with zipfile.ZipFile(io.BytesIO(archive)) as files:

@@ -118,7 +118,7 @@ def _robot(named: arguments.Named, written: str | None, tip: str | None) -> tupl
     elif is_lock(written):
         path = Path(written)
     else:
-        what = "the lock's name ends in neither .urdf.lock nor .xacro.lock, so --check would not find it"
+        what = "the lock's name ends in none of .urdf.lock, .xacro.lock and .xml.lock, so --check would not find it"
         raise DescriptionError("lock-name", what, file=written, remedy=f"call it {written}.urdf.lock, say")
     named.options = {**named.options, "tip": tip}
     robot = named.load()

@@ -14,7 +14,6 @@ if __name__ == "__main__" and not getattr(sys.flags, "safe_path", False):
 import contextlib
 import io
 import json
-import resource
 import signal
 from collections.abc import Mapping
 from pathlib import Path
@@ -30,7 +29,7 @@ from pinscrew.description import markup
 from pinscrew.description._xacro_arguments import NeedsError, XacroArguments
 from pinscrew.description._xacro_methods import TooLongError, method
 from pinscrew.description.packages import Packages, is_file
-from pinscrew.ground.children import end_with_parent
+from pinscrew.ground.children import end_with_parent, limit
 from pinscrew.ground.errors import DescriptionError
 from pinscrew.ground.words import brief, one_line
 
@@ -199,14 +198,7 @@ def _limit(seconds: int, memory: int) -> None:
         raise _TimeUpError
 
     signal.signal(signal.SIGXCPU, end)
-    limits = {resource.RLIMIT_FSIZE: (0, 0), resource.RLIMIT_CORE: (0, 0)}
-    limits[resource.RLIMIT_CPU] = (seconds, seconds + 1)
-    if sys.platform == "linux":  # macOS does not enforce it, and refuses to set it
-        limits[resource.RLIMIT_AS] = (memory, memory)
-    for which, (soft, hard) in limits.items():
-        most = resource.getrlimit(which)[1]
-        bounded = (soft, hard) if most == resource.RLIM_INFINITY else (min(soft, most), min(hard, most))
-        resource.setrlimit(which, bounded)
+    limit(seconds, memory)
 
 
 def _cause(error: BaseException | None, kind: type[_E]) -> _E | None:

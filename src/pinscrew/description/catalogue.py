@@ -147,11 +147,11 @@ def _described(name: str) -> Entry | None:
     except Exception as error:  # whatever git, the network or the module raises
         what = f"{DESCRIPTIONS} does not get it ({type(error).__name__}: {one_line(brief(str(error)))})"
         raise DescriptionError("unreadable", what, file=name) from error
-    for attribute in ("URDF_PATH", "XACRO_PATH"):
+    for attribute in ("URDF_PATH", "XACRO_PATH", "MJCF_PATH"):
         if (file := getattr(module, attribute, None)) is not None:
             return Entry(name, Path(file))
-    remedy = "name one that has a URDF or a xacro file"
-    raise DescriptionError("no-file", f"the module of {DESCRIPTIONS} has no URDF", file=name, remedy=remedy)
+    remedy = "name one that has a URDF, xacro or MJCF file"
+    raise DescriptionError("no-file", f"the module of {DESCRIPTIONS} has no robot's file", file=name, remedy=remedy)
 
 
 def _of_path(path: Path) -> Entry:

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -16,10 +16,10 @@ from xml.parsers import expat
 
 from pinscrew.description.markup import Place
 from pinscrew.description.packages import Packages
-from pinscrew.ground.errors import PinscrewWarning, XacroError
+from pinscrew.ground.errors import DescriptionError, PinscrewWarning, XacroError
 from pinscrew.ground.words import brief, one_line
 
-__all__ = ["MEMORY", "SECONDS", "Expansion", "expand", "expansion", "is_xacro", "text_is_xacro", "with_sources"]
+__all__ = ["MEMORY", "SECONDS", "Expansion", "ask", "expand", "expansion", "is_xacro", "text_is_xacro", "with_sources"]
 
 SECONDS: Final = 8
 """Processor time that an expansion may take."""
@@ -109,10 +109,16 @@ def expansion(path: Path, arguments: Mapping[str, str], packages: Packages | Non
         "arguments": dict(arguments),
         "packages": {name: str(root.resolve()) for name, root in packages.declared.items()},
         "allow_outside": packages.allow_outside,
-        "seconds": SECONDS,
-        "memory": MEMORY,
     }
-    answer = _ask(request)
+
+    def ended(what: str, remedy: str) -> XacroError:
+        remedy = remedy or "look for endless macros and huge numbers"
+        return XacroError("xacro-limit", f"its expansion takes {what}", file=path, remedy=remedy)
+
+    def failed(words: str) -> XacroError:
+        return XacroError("xacro", f"its expansion failed: {words}", file=path)
+
+    answer = ask(_WORKER, request, ended, failed)
     for message in answer["warnings"]:
         warnings.warn(PinscrewWarning("xacro", message, file=path), stacklevel=2)
     if "error" in answer:
@@ -127,20 +133,27 @@ def expansion(path: Path, arguments: Mapping[str, str], packages: Packages | Non
     return Expansion(answer["text"], tuple((files[file], line) for file, line in answer["places"]))
 
 
-def _ask(request: Mapping[str, Any]) -> dict[str, Any]:
-    """The worker's answer.
+def ask(
+    worker: Path,
+    request: Mapping[str, Any],
+    ended: Callable[[str, str], DescriptionError],
+    failed: Callable[[str], DescriptionError],
+) -> dict[str, Any]:
+    """What a worker, a script of ours in a limited child process, answers.
+
+    Args:
+        worker: the script, which reads ``request`` from standard input, and limits itself to `SECONDS` and `MEMORY`.
+        request: what to do.
+        ended: the error, from what was taken too much of, and what would help where it is not the file.
+        failed: the error, from what the worker said before it ended.
 
     Raises:
-        XacroError: if a limit ended it, or it failed.
+        DescriptionError: if a limit ended it, or it failed.
     """
-
-    def ended(what: str, remedy: str = "look for endless macros and huge numbers") -> XacroError:
-        return XacroError("xacro-limit", f"its expansion takes {what}", file=request["file"], remedy=remedy)
-
     try:
         child = subprocess.run(  # noqa: S603 (our own worker, under our own interpreter)
-            [sys.executable, str(_WORKER)],
-            input=json.dumps(request),
+            [sys.executable, str(worker)],
+            input=json.dumps({**request, "seconds": SECONDS, "memory": MEMORY}),
             capture_output=True,
             check=False,
             text=True,
@@ -150,11 +163,10 @@ def _ask(request: Mapping[str, Any]) -> dict[str, Any]:
         what = f"more than {SECONDS * PATIENCE} s, most of which it waited"
         raise ended(what, "try again on a machine that is less busy") from None
     if child.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        raise ended(f"more than {SECONDS} s of processor time")
+        raise ended(f"more than {SECONDS} s of processor time", "")
     if child.returncode < 0 or "MemoryError" in child.stderr:
-        raise ended(f"more than {MEMORY // 2**20} MB")
+        raise ended(f"more than {MEMORY // 2**20} MB", "")
     if child.returncode > 0:
-        what = f"its expansion failed: {one_line(brief(child.stderr))}"
-        raise XacroError("xacro", what, file=request["file"])
+        raise failed(one_line(brief(child.stderr)))
     answer: dict[str, Any] = json.loads(child.stdout)
     return answer

@@ -12,7 +12,18 @@ import numpy as np
 
 from pinscrew.ground.typing import FloatArray
 
-__all__ = ["JOINT_TYPES", "SCALAR_TYPES", "Description", "Joint", "JointType", "Limits", "Mimic", "Rebuilt", "drivers"]
+__all__ = [
+    "JOINT_TYPES",
+    "SCALAR_TYPES",
+    "Description",
+    "Joint",
+    "JointType",
+    "Limits",
+    "Mimic",
+    "MjcfModel",
+    "Rebuilt",
+    "drivers",
+]
 
 JointType: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
@@ -78,6 +89,23 @@ class Joint(Rebuilt):
         self.axis.setflags(write=False)
 
 
+@dataclass(frozen=True, slots=True)
+class MjcfModel(Rebuilt):
+    """What an MJCF is to MuJoCo, beside the URDF that is written from it.
+
+    Attributes:
+        text: the MJCF, with includes put in place and without what moves nothing.
+        bodies: the link of each body, in MuJoCo's order.
+        joints: the joint of each joint.
+        sites: the link of each site.
+    """
+
+    text: str = field(repr=False)
+    bodies: tuple[str, ...]
+    joints: tuple[str, ...]
+    sites: tuple[str, ...]
+
+
 @dataclass(frozen=True)
 class Description(Rebuilt):
     """A robot as its file describes it, checked to be one tree.
@@ -89,6 +117,7 @@ class Description(Rebuilt):
         links: the links' names, parents before children (depth first, siblings as in the file).
         joints: the joints, in the order of the links they lead to.
         arguments: the xacro arguments that were given.
+        mjcf: the MJCF that ``text`` was written from, if it was.
     """
 
     name: str
@@ -97,6 +126,7 @@ class Description(Rebuilt):
     links: tuple[str, ...]
     joints: tuple[Joint, ...]
     arguments: Mapping[str, str] = field(default_factory=dict)
+    mjcf: MjcfModel | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "arguments", MappingProxyType(dict(self.arguments)))

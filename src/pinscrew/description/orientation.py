@@ -39,13 +39,14 @@ def to_rpy(R: FloatArray) -> tuple[float, float, float]:
     """Roll, pitch in [-π/2, π/2] and yaw (rad) of a rotation, shape (3, 3); the yaw is 0 where only a sum counts.
 
     The last row of `of_rpy` is (-sin p, cos p sin r, cos p cos r) and its first column (cos y cos p, sin y cos p,
-    -sin p). Where cos p is no more than rounding, R turns by r ∓ y about one axis, which the second column still has.
+    -sin p). Rz(yaw)ᵀ R = Ry(pitch) Rx(roll) has (0, cos r, -sin r) as its second row: pitch and roll are read off it,
+    so that they fit the yaw even where cos p is small and the yaw has few digits.
     """
     cosine = math.hypot(R[0, 0], R[1, 0])
-    pitch = math.atan2(-R[2, 0], cosine)
-    if cosine < 1e-12:
-        return math.atan2(-R[1, 2], R[1, 1]), pitch, 0.0
-    return math.atan2(R[2, 1], R[2, 2]), pitch, math.atan2(R[1, 0], R[0, 0])
+    yaw = math.atan2(R[1, 0], R[0, 0]) if cosine >= 1e-12 else 0.0
+    c, s = math.cos(yaw), math.sin(yaw)
+    roll = math.atan2(s * R[0, 2] - c * R[1, 2], c * R[1, 1] - s * R[0, 1])
+    return roll, math.atan2(-R[2, 0], c * R[0, 0] + s * R[1, 0]), yaw
 
 
 def of_origin(attributes: Mapping[str, str]) -> FloatArray:

@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from pinscrew.description import urdf
+from pinscrew.description.orientation import to_rpy
 from pinscrew.dh.table import Convention, about_z, along_x, check_convention
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import FloatArray
@@ -95,17 +96,9 @@ def _row(row: Any, number: int) -> tuple[float, ...]:
 
 def _joint(name: str, kind: str, parent: str, child: str, T: FloatArray) -> list[str]:
     limit = '<limit lower="-1" upper="1" effort="0" velocity="0"/>' if kind == "prismatic" else ""
-    xyz, rpy = (" ".join(repr(float(v)) for v in values) for values in (T[:3, 3], _rpy(T[:3, :3])))
+    xyz, rpy = (" ".join(repr(float(v)) for v in values) for values in (T[:3, 3], to_rpy(T[:3, :3])))
     return [
         f'<link name="{child}"/>',
         f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
         f'<origin xyz="{xyz}" rpy="{rpy}"/><axis xyz="0 0 1"/>{limit}</joint>',
     ]
-
-
-def _rpy(R: FloatArray) -> tuple[float, float, float]:
-    """Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll); roll is measured after yaw, so that both fit at ±90°."""
-    yaw = math.atan2(R[1, 0], R[0, 0])
-    c, s = math.cos(yaw), math.sin(yaw)
-    pitch = math.atan2(-R[2, 0], c * R[0, 0] + s * R[1, 0])
-    return math.atan2(s * R[0, 2] - c * R[1, 2], c * R[1, 1] - s * R[0, 1]), pitch, yaw

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, Final
 
-__all__ = ["end_with_parent", "program"]
+__all__ = ["end_with_parent", "limit", "program"]
 
 _PR_SET_PDEATHSIG: Final = 1  # of Linux's <sys/prctl.h>
 
@@ -37,6 +37,25 @@ def end_with_parent(parent: int | None = None) -> None:
         ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if parent is not None and os.getppid() != parent:
         os._exit(1)
+
+
+def limit(seconds: int, memory: int) -> None:
+    """In a child: let the system end this process if it takes more, or writes a file.
+
+    Args:
+        seconds: of processor time, after which it is told, and a second later killed.
+        memory: bytes that it may address.
+    """
+    import resource  # which Windows has not
+
+    limits = {resource.RLIMIT_FSIZE: (0, 0), resource.RLIMIT_CORE: (0, 0)}
+    limits[resource.RLIMIT_CPU] = (seconds, seconds + 1)
+    if sys.platform == "linux":  # macOS does not enforce it, and refuses to set it
+        limits[resource.RLIMIT_AS] = (memory, memory)
+    for which, (soft, hard) in limits.items():
+        most = resource.getrlimit(which)[1]
+        bounded = (soft, hard) if most == resource.RLIM_INFINITY else (min(soft, most), min(hard, most))
+        resource.setrlimit(which, bounded)
 
 
 @contextmanager

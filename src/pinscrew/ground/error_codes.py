@@ -49,6 +49,13 @@ ERRORS: Final[dict[str, str]] = {
     "xacro-macros": "A xacro file only defines macros, and no robot.",
     "xacro-forbidden": "An expression goes beyond arithmetic, comparison, conditionals and the known functions.",
     "xacro-limit": "An expansion takes too long, too much memory, or includes itself.",
+    # MJCF
+    "mjcf": "MuJoCo refuses the file; the message carries its words.",
+    "mjcf-include": "An MJCF includes a file twice, in a circle, or one that is not there or no MJCF.",
+    "mjcf-unsupported": "An MJCF has a ball joint, or elements that make bodies by rules of their own.",
+    "mjcf-coupling": "Joints are coupled by a polynomial that is not linear.",
+    "mjcf-limit": "MuJoCo's compiler takes too long, or too much memory.",
+    "mjcf-floating": "A floating base is asked for, which an MJCF itself says or says not.",
     "unknown-package": "A ROS package is in none of the places where packages are looked for.",
     "outside": "A file is asked for that is outside the robot's own folder and the declared packages.",
     "remote-file": "A mesh or image is asked for that is not a local file.",
@@ -198,5 +205,6 @@ WARNINGS: Final[dict[str, str]] = {
     "no-mesh": "Meshes are not where the file says; their links are drawn as frames.",
     "mimic-fixed": "A fixed joint has a `<mimic>`, which was ignored.",
     "xacro": "xacro has something to say about the file.",
+    "mjcf-left-out": "An MJCF has closed loops, tendons, or frames turned by inertia, which are not modelled.",
     "xacro-content": "A file that is not called `.xacro` has xacro in it, and was expanded.",
 }

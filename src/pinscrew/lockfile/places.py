@@ -12,7 +12,7 @@ from pinscrew.ground.errors import DescriptionError
 
 __all__ = ["SUFFIXES", "below", "beside", "check_source", "is_lock"]
 
-SUFFIXES: Final = (".urdf.lock", ".xacro.lock")
+SUFFIXES: Final = (".urdf.lock", ".xacro.lock", ".xml.lock")
 """How the name of a lock file ends; other tools have ``.lock`` files too."""
 
 
@@ -28,16 +28,19 @@ def beside(source: str) -> Path:
         source: the path of the robot's file.
 
     Raises:
-        DescriptionError: if it is no path, or its name ends in neither ``.urdf`` nor ``.xacro``.
+        DescriptionError: if it is no path, or its name ends in none of ``.urdf``, ``.xacro`` and ``.xml``.
     """
     lock = Path(f"{source}.lock")
     if is_lock(lock):
         return lock
     if is_file(Path(source)):
-        what = "its name ends in neither .urdf nor .xacro"
+        what = "its name ends in none of .urdf, .xacro and .xml"
         remedy = "name the lock with --output, such as arm.urdf.lock"
     else:
-        what, remedy = "is no file, and a lock stands beside its robot's file", "give the path of a .urdf or .xacro"
+        what, remedy = (
+            "is no file, and a lock stands beside its robot's file",
+            "give the path of a .urdf, .xacro or .xml",
+        )
     raise DescriptionError("lock-name", what, file=source, remedy=remedy)
 
 

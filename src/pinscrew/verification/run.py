@@ -9,7 +9,6 @@ from typing import Final
 import numpy as np
 
 from pinscrew.engines.base import Engine
-from pinscrew.engines.pair import pair_of
 from pinscrew.ground.counts import whole
 from pinscrew.ground.errors import InputError
 from pinscrew.robot.loading import RobotLike, robot_of
@@ -18,6 +17,7 @@ from pinscrew.verification import comparison, compiled, diagnosis, differences, 
 from pinscrew.verification.configurations import Configurations, configurations, speeds
 from pinscrew.verification.outcome import Check
 from pinscrew.verification.report import Report
+from pinscrew.witnesses.mjcf import readers_of
 
 __all__ = ["TOLERANCE", "check_names", "verify"]
 
@@ -53,7 +53,7 @@ def verify(
         seed: of the random configurations.
         tolerance: largest scaled error that is rounding.
         frames: the frames to compare; by default all.
-        engines: two engines to compare instead of `PoE` and `Pinocchio` of this robot.
+        engines: two engines to compare instead of `PoE` and `Pinocchio` of this robot, or MuJoCo of an MJCF.
 
     Raises:
         InputError: if ``samples`` or ``seed`` is negative or no whole number, ``tolerance`` is not positive and
@@ -68,7 +68,7 @@ def verify(
     names = tuple(robot.frame(frame) for frame in (robot.frame_names if frames is None else frames))
     if not names:
         raise InputError("frames", "there are no frames to compare", remedy="leave frames out to compare all")
-    pair = engines or pair_of(robot)
+    pair = engines or readers_of(robot)
     known = tuple(name for name in names if all(name in engine.robot.frame_names for engine in pair))
     remarks = structure.compare(*pair)
     where = configurations(robot, samples, seed)

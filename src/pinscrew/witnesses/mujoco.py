@@ -25,7 +25,7 @@ from pinscrew.ground.errors import EngineError, MissingExtraError, PinscrewWarni
 from pinscrew.ground.typing import FloatArray
 from pinscrew.robot.robot import FLOATING_JOINT, UNIVERSE, Robot
 
-__all__ = ["MuJoCo", "library"]
+__all__ = ["FreeJoint", "MuJoCo", "library", "warnings_kept"]
 
 WORLD: Final = "world"
 """MuJoCo's name for its first body, which does not move; a root link of this name is it."""
@@ -35,7 +35,7 @@ _LOCK: Final = threading.Lock()
 
 
 @dataclass(frozen=True, slots=True)
-class _Free:
+class FreeJoint:
     """A joint of several velocities: where its coordinates and velocities start in the model and in ours."""
 
     kind: str
@@ -111,7 +111,7 @@ class MuJoCo(HybridEngine):
             ET.SubElement(floating, "parent", link=WORLD)
             ET.SubElement(floating, "child", link=self._robot.description.joints[0].child)
         try:
-            with _warnings_kept(self._library):
+            with warnings_kept(self._library):
                 return self._library.MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
         except ValueError as error:
             what = f"MuJoCo refuses the file: {error}"
@@ -158,7 +158,7 @@ class MuJoCo(HybridEngine):
                 continue
             q, v = int(model.jnt_qposadr[at]), int(model.jnt_dofadr[at])
             if kind in ("planar", "floating"):
-                free.append(_Free(kind, body, q, v, source.q, source.v))
+                free.append(FreeJoint(kind, body, q, v, source.q, source.v))
             else:
                 self._A[q, source.q] = self._F[v, source.v] = source.multiplier
                 self._b[q] = source.offset
@@ -168,7 +168,6 @@ class MuJoCo(HybridEngine):
         mj, model = self._library, self.model
         data = mj.MjData(model)
         along = np.zeros((len(q), self._robot.nv)) if qd is None else qd
-        bodies = [self._bodies[name] for name in frames]
         shape = (len(q), len(frames), 6, self._robot.nv)
         poses = np.zeros((len(q), len(frames), 4, 4))
         poses[..., 3, 3] = 1.0
@@ -181,13 +180,27 @@ class MuJoCo(HybridEngine):
             F, dF = self._fold(data, along[i])
             data.qvel = F @ along[i]
             mj.mj_comVel(model, data)
-            for j, body in enumerate(bodies):
-                point = data.xpos[body]
-                poses[i, j, :3, :3], poses[i, j, :3, 3] = data.xmat[body].reshape(3, 3), point
+            for j, name in enumerate(frames):
+                body, point, turned = self._frame_in(data, name)
+                poses[i, j, :3, :3], poses[i, j, :3, 3] = turned.reshape(3, 3), point
                 mj.mj_jac(model, data, theirs[:3], theirs[3:], point, body)
                 mj.mj_jacDot(model, data, rates[:3], rates[3:], point, body)
+                self._correct(name, theirs, rates, data.qvel)
                 J[i, j], dJ[i, j] = theirs @ F, rates @ F + theirs @ dF
         return Told(poses, J, dJ, along)
+
+    def _frame_in(self, data: Any, frame: str) -> tuple[int, FloatArray, FloatArray]:
+        """The body of a frame, and its position and rotation in ``data``."""
+        body = self._bodies[frame]
+        return body, data.xpos[body], data.xmat[body]
+
+    def _correct(self, frame: str, J: FloatArray, J_rate: FloatArray, qvel: FloatArray) -> None:
+        """Make the Jacobian of a body, and its rate, those of a frame that not all its joints move, in place."""
+
+    def _at_rest(self) -> FloatArray:
+        """What a free joint's coordinates are where ours are an identity, in the model's coordinates."""
+        rest: FloatArray = self.model.qpos0
+        return rest
 
     def _model_q(self, q: FloatArray) -> FloatArray:
         """Our coordinates (nq,) as MuJoCo's (model.nq,)."""
@@ -197,7 +210,7 @@ class MuJoCo(HybridEngine):
             if joint.kind == "planar":
                 out[joint.q : joint.q + 3] = ours[:3]
             else:  # its free joint has the pose in the world; the origin of the joint is its pose at rest
-                at_rest, target = (whole[joint.q : joint.q + 7] for whole in (self.model.qpos0, out))
+                at_rest, target = (whole[joint.q : joint.q + 7] for whole in (self._at_rest(), out))
                 pose = at_rest[:3], at_rest[3:], ours[:3], ours[[6, 3, 4, 5]]  # quaternions are w, x, y, z
                 self._library.mju_mulPose(target[:3], target[3:], *pose)
         return out
@@ -240,12 +253,14 @@ def library() -> Any:
 
 
 @contextmanager
-def _warnings_kept(library: Any) -> Iterator[None]:
+def warnings_kept(library: Any) -> Iterator[None]:
     """Let MuJoCo say nothing, such as that it ignores equal limits, where it else writes a file MUJOCO_LOG.TXT."""
     with _LOCK:
         handler = library.get_mju_user_warning()
         library.set_mju_user_warning(lambda _: None)
         try:
-            yield
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                yield
         finally:
             library.set_mju_user_warning(handler)

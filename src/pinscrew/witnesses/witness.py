@@ -39,6 +39,8 @@ def witness(name: str, robot: RobotLike) -> Engine:
     require(name)
     robot = robot_of(robot)
     module, attribute = WITNESSES[name]
+    if name == "mujoco" and robot.description.mjcf is not None:  # which it reads itself
+        module, attribute = "pinscrew.witnesses.mjcf", "MuJoCoFile"
     engine: Engine = getattr(importlib.import_module(module), attribute)(robot)
     return engine
 
