@@ -70,13 +70,13 @@ def _complete(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> 
     return [CompletionItem(name) for name in names] or [CompletionItem(incomplete, type="file")]
 
 
-def robot_argument(*, required: bool = True, then: str = "") -> Callable[[_F], _F]:
+def robot_argument(*, required: bool = True, then: str = "", metavar: str = "") -> Callable[[_F], _F]:
     """The ROBOT [ARG:=VALUE]... of a command, as a tuple of words for `robots`; ``then`` names what else may follow."""
     argument = click.argument(
         "words",
         nargs=-1,
         required=required,
-        metavar=f"ROBOT [ARG:=VALUE]...{then}" if required else "[ROBOT [ARG:=VALUE]...]...",
+        metavar=metavar or (f"ROBOT [ARG:=VALUE]...{then}" if required else "[ROBOT [ARG:=VALUE]...]..."),
         shell_complete=_complete,
     )
     options = (

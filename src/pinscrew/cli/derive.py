@@ -28,7 +28,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 
 
 @click.command(name="derive", short_help="Derive closed forms of a frame's motion.")
-@arguments.robot_argument()
+@arguments.robot_argument(required=False, metavar="[ROBOT [ARG:=VALUE]...]")
 @arguments.tip_option
 @click.option(
     "--from",
@@ -84,10 +84,21 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
 )
 @click.option("--errata", is_flag=True, help="Show the mistakes of the printed coursework instead, and check them.")
 @click.option("--worksheet", is_flag=True, help="Write a worksheet to fill in instead, for `pinscrew check`.")
+@click.option(
+    "--identity",
+    type=click.Choice(["rotation"]),
+    help="Prove instead what holds of every rotation: R Rᵀ = I, det R = 1, R â Rᵀ = (R a)^.",
+)
 @click.option("--samples", default=100, show_default=True, type=click.IntRange(1), help="Of the numerical proof.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Of the numerical proof.")
 def command(
-    words: tuple[str, ...], form: str | None, target: Path | None, errata: bool, worksheet: bool, **options: Any
+    words: tuple[str, ...],
+    form: str | None,
+    target: Path | None,
+    errata: bool,
+    worksheet: bool,
+    identity: str | None,
+    **options: Any,
 ) -> None:
     """Derive a frame's pose, velocities and Jacobians in closed form, step by step.
 
@@ -99,9 +110,14 @@ def command(
       pinscrew derive planar_rrr --part i --convention lynch-park
       pinscrew derive scara --worksheet -o scara.md
       pinscrew derive path/to/arm.urdf --symbols --code c --kind hybrid
+      pinscrew derive --identity rotation
     """
     form = form or ("terminal" if target is None and sys.stdout.isatty() else "markdown")
-    if worksheet:
+    if not words and identity is None:
+        raise click.UsageError("Missing argument 'ROBOT [ARG:=VALUE]...'.")
+    if identity is not None:
+        text, ok = _identity(identity, words, form)
+    elif worksheet:
         text, ok = _worksheet(words, form, options["tip"]), True
     else:
         text, ok = _errata(words, form) if errata else _report(words, form, **options)
@@ -110,7 +126,8 @@ def command(
     else:
         output.write_file(target, text)
     if not ok:
-        click.echo("pinscrew: the closed forms and the engines disagree", err=True)
+        what = "the closed forms and the engines disagree" if identity is None else "an identity does not hold"
+        click.echo(f"pinscrew: {what}", err=True)
         sys.exit(1)
 
 
@@ -179,4 +196,13 @@ def _errata(words: tuple[str, ...], form: str) -> tuple[str, bool]:
     from pinscrew.derivation import errata, reports
 
     report = errata.report(arguments.robot(words).load())
+    return reports.write(report, form), report.ok
+
+
+def _identity(name: str, words: tuple[str, ...], form: str) -> tuple[str, bool]:
+    from pinscrew.derivation import identities, reports
+
+    if words:
+        raise click.UsageError("--identity is of no robot: give one or the other")
+    report = identities.identities(name)
     return reports.write(report, form), report.ok
