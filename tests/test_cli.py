@@ -119,6 +119,8 @@ def test_examples_of_the_help_work(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     file = tmp_path / "path" / "to" / "arm.urdf"
     file.parent.mkdir(parents=True)
     file.write_text(urdfs.rotated())
+    (tmp_path / "homework").mkdir()
+    (tmp_path / "homework" / "one.md").write_text(r"$\xi_1 = (0, 0, 0, 0, 0, 1)$")
     (tmp_path / "answers.md").write_text(r"$\xi_1 = (0, 0, 0, 0, 0, 1)$")
     lines = [line.strip() for name in _COMMANDS for line in ok(name, "--help").out.splitlines()]
     lines += [line.strip() for line in ok("--help").out.splitlines()]

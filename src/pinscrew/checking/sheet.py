@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pinscrew.checking.marked import marked_matrix, marked_page
 from pinscrew.checking.verdict import AnswerVerdict
 from pinscrew.ground.words import brief
 from pinscrew.reporting.document import Account, Case, Document, Problem, Sentence
@@ -87,6 +88,19 @@ class AnswerSheet(Documented, SheetData):
         lines = tuple(Sentence(note, "note") for note in notes)
         accounts.append(Account(self.file, f"{self.file}: {counted}", lines=lines))
         return Document("pinscrew check", bool(self.right), tuple(accounts), data=self.data())
+
+    def marked(self) -> str:
+        """The answers as a part of a page in HTML, with the wrong entries marked."""
+        accounts = self.document().accounts[len(self.verdicts) :]
+        rest = [marked_matrix(each.heading, (), (), (), (), [line.text for line in each.lines]) for each in accounts]
+        return "".join([*(verdict.marked() for verdict, _ in self.verdicts), *rest])
+
+    def to_html(self) -> str:
+        """The report as a page."""
+        return marked_page(f"{self.file}: {self.robot}", [self.marked()])
+
+    def _repr_html_(self) -> str:
+        return self.marked()
 
     def data(self) -> dict[str, Any]:
         """The verdicts as JSON has them, schema ``pinscrew.check/1``."""

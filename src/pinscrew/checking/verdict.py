@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pinscrew.checking.marked import marked_matrix, marked_page
 from pinscrew.ground.words import brief
 from pinscrew.reporting.document import Account, Case, Document, Problem, ResultTable, Sentence, Strong
 from pinscrew.reporting.documented import Documented
@@ -70,6 +71,20 @@ class AnswerVerdict(Documented, VerdictData):
             cases=(Case(self.quantity, problem),),
         )
         return Document("pinscrew check", bool(self.right), (account,), data=self.data())
+
+    def marked(self) -> str:
+        """The answer as a part of a page in HTML, with the wrong entries marked."""
+        (account,) = self.document().accounts
+        unread = {place for place, _ in self.unread}
+        said = [line.text for line in account.lines]
+        return marked_matrix(account.heading, self.given, self.expected, self.entries, unread, said)
+
+    def to_html(self) -> str:
+        """The report as a page."""
+        return marked_page(f"{self.quantity} of {self.robot}", [self.marked()])
+
+    def _repr_html_(self) -> str:
+        return self.marked()
 
     def data(self) -> dict[str, Any]:
         """The verdict as JSON has it, schema ``pinscrew.check/1``."""
