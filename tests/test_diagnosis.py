@@ -284,6 +284,10 @@ SCREWS = {
         {"j1": {"twists": np.array([[0.0], [1e-3], [0.0], [math.sin(0.01)], [0.0], [math.cos(0.01)]])}},
         (f"its axis is turned by {TILT}", f"its axis is turned by {TILT}"),
     ),
+    "nearly the other way": (
+        {"j1": {"twists": np.array([[0.0], [0.0], [0.0], [math.sin(2.5)], [0.0], [math.cos(2.5)]])}},
+        ("its axis is turned by 143.239° (2.5 rad)", "its axis is turned by 143.239° (2.5 rad)"),
+    ),
     "a pitch": (
         {"j1": {"twists": moved("j1", 2, 1e-3)}},
         ("its pitch is 0 m/rad instead of 0.001", "its pitch is 0.001 m/rad instead of 0"),
@@ -307,6 +311,7 @@ def test_wrong_screws(changes: dict[str, Any], words: tuple[str, str], side: int
     assert {"screw axes"} | JACOBIANS <= failed(report)
     assert "structure" not in failed(report)
     assert report.diagnosis == (f"joint {joint!r}: {words[side]} {end}",)
+    assert (report.blamed, report.files) == ((joint,), (ROBOT.description.file,))
 
 
 def test_coordinates_exchanged() -> None:

@@ -594,6 +594,24 @@ def matched(a: str, b: str) -> dict[str, str]:
     return dict(matching.match(urdfs.load(a).description, urdfs.load(b).description).joints)
 
 
+def test_links_are_matched_by_name_and_by_the_joints_they_hang_on() -> None:
+    """The base by its place; no link has two, and a name that both have is one link."""
+
+    def links(a: str, b: str) -> dict[str, str]:
+        def chain(names: str) -> str:
+            base, arm, hand = names.split()
+            joints = [urdfs.joint("j1", "revolute", base, arm), urdfs.joint("j2", "revolute", arm, hand, xyz="1 0 0")]
+            return urdfs.robot(*joints, links=names)
+
+        found = matching.match(urdfs.load(chain(a)).description, urdfs.load(chain(b)).description)
+        return dict(found.links)
+
+    assert links("base arm hand", "ground arm hand") == {"base": "ground", "arm": "arm", "hand": "hand"}
+    assert links("base arm hand", "base lower upper") == {"base": "base", "arm": "lower", "hand": "upper"}
+    assert links("base arm hand", "hand arm base") == {"base": "base", "arm": "arm", "hand": "hand"}
+    assert links("base arm hand", "arm hand tool") == {"arm": "arm", "hand": "hand"}
+
+
 def test_joints_are_matched_by_name_child_stand_and_type() -> None:
     def siblings(*names: str, kinds: tuple[str, ...] = ("revolute",) * 3, at: str = "123") -> str:
         joints = [
