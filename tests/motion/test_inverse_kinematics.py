@@ -281,7 +281,7 @@ def test_stalled() -> None:
     robot = load("planar_rrr")
     with pytest.MonkeyPatch.context() as patch:
         for name in ("STEPS", "LAST_STEPS"):
-            patch.setattr(f"pinscrew.motion.inverse_kinematics.{name}", 1)
+            patch.setattr(f"pinscrew.motion.search.{name}", 1)
         solution = ps.ik(robot, targets(robot, None, 20, seed=10), starts=1)
     assert set(solution.reason[~solution.solved]) == {"stalled"}
     assert not solution.ok

@@ -166,6 +166,8 @@ ERRORS: Final[dict[str, str]] = {
     "worker": "A process that computes a map ended before its work did.",
     # Inverse kinematics and singularities
     "task": "What a frame is to do is neither to reach a pose nor a position.",
+    "solutions": "Solutions of inverse kinematics are asked for as neither one nor all.",
+    "redundant": "All solutions of inverse kinematics are asked for where there are infinitely many.",
     "limits": "Limits are reversed or not there, and a displacement can't be searched for without them.",
     "outside-limits": "A search is to start outside the limits.",
     "starts": "A number of starts is not positive, or no whole number.",

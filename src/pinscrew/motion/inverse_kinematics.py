@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -14,10 +14,11 @@ from pinscrew.engines.pair import pair_of
 from pinscrew.ground.arrays import numbers
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import ArrayLike, FloatArray
-from pinscrew.lie import se3, so3
+from pinscrew.lie import se3
 from pinscrew.lie.checks import read, require_bottom_row, require_finite, require_rotation
-from pinscrew.motion.descent import Descent
+from pinscrew.motion.branches import NO_OTHER, every, require_isolated
 from pinscrew.motion.freedoms import Freedoms, Task, freedoms, task_rows
+from pinscrew.motion.search import Search
 from pinscrew.robot.loading import RobotLike, robot_of
 
 __all__ = ["TOLERANCE", "Solution", "ik"]
@@ -25,20 +26,7 @@ __all__ = ["TOLERANCE", "Solution", "ik"]
 TOLERANCE: Final = 1e-9
 """Error (rad, and m over max(1, length)) of a target that is reached."""
 
-MARGIN: Final = 1e-3
-"""What the search aims at, as a part of the tolerance: one step more."""
-LEAST: Final = 1e-13
-"""The least that it aims at: rounding."""
-STEPS: Final = 60
-SETTLED: Final = 0.9
-"""A start is given up when `WINDOW` steps leave more than this of its squared error."""
-LAST_STEPS: Final = 1000
-LAST_SETTLED: Final = 1.0 - 1e-6
-"""The same of the nearest configuration, where none reaches the target."""
-DRAWN: Final = 10
-"""Configurations that are drawn for each start: the nearest to the target become starts."""
-GROWTH: Final = 4
-"""By how much each round of starts is larger than the one before."""
+SOLUTIONS: Final = ("one", "all")
 BLOCK: Final = 512
 """Targets that are searched for together."""
 
@@ -59,7 +47,8 @@ class Solution:
         reason: why a target is not reached, shape (...): ``""`` where it is; ``"outside limits"`` if it is
             reached without the limits only; ``"unreachable"`` if every start ended at a minimum of the error;
             ``"stalled"`` if the error still fell when the steps ran out; ``"unconfirmed"`` if the first engine
-            says that it is reached, and the second not.
+            says that it is reached, and the second not; ``"no other"`` in the place of a solution that another
+            target has and this one not.
     """
 
     robot: str
@@ -74,14 +63,17 @@ class Solution:
     @property
     def ok(self) -> bool:
         """Whether every target is reached."""
-        return bool(self.solved.all())
+        return bool((self.solved | (self.reason == NO_OTHER)).all())
 
     def __str__(self) -> str:
-        words = f"{self.robot}, {self.task} of {self.frame}: {int(self.solved.sum())} of {self.solved.size} reached"
-        if not self.solved.size:
+        there = self.reason != NO_OTHER
+        reached, count = int(self.solved.sum()), int(there.sum())
+        words = f"{self.robot}, {self.task} of {self.frame}: {reached} of {count} reached"
+        if not count:
             return words
-        words += f", largest error {self.position_error.max():.3g} m, {self.angle_error.max():.3g} rad"
-        reasons, counts = np.unique(self.reason[~self.solved], return_counts=True)
+        distance, angle = self.position_error[there].max(), self.angle_error[there].max()
+        words += f", largest error {distance:.3g} m, {angle:.3g} rad"
+        reasons, counts = np.unique(self.reason[there & ~self.solved], return_counts=True)
         return "; ".join([words, *(f"{reason}: {count}" for reason, count in zip(reasons, counts, strict=True))])
 
 
@@ -96,6 +88,7 @@ def ik(
     starts: int = 100,
     seed: int = 0,
     tolerance: float = TOLERANCE,
+    solutions: Literal["one", "all"] = "one",
     engines: tuple[Engine, Engine] | None = None,
 ) -> Solution:
     """Configurations within the limits that put ``frame`` at ``T_base_tip``.
@@ -118,6 +111,11 @@ def ik(
         starts: most starts for a target, ``q0`` among them.
         seed: of the starts.
         tolerance: largest error of a target that is reached, in rad, and in m over max(1, `Freedoms.length`).
+        solutions: ``"one"``, or ``"all"`` that differ by more than whole turns, for arms that reach a target in
+            finitely many ways: all arrays of the answer then have a last batch axis, over the k solutions of the
+            target that has most, nearest to ``q0`` first. Where a target has fewer, ``q`` and the errors are NaN,
+            ``solved`` is False and ``reason`` is ``"no other"``; one without any has its nearest configuration first.
+            From random starts, until each was met twice (`pinscrew.motion.branches`).
         engines: two engines to search and to check with, instead of `PoE` and `Pinocchio` of this robot.
 
     Returns:
@@ -127,7 +125,8 @@ def ik(
         UnknownNameError, AmbiguousTipError: see `Robot.frame`.
         InputError: if a target is no pose, ``q0`` has another shape, is not finite or is outside the limits, no joint
             moves the frame or a planar or floating one does, a displacement has no limits, ``limits`` are reversed,
-            there is no such task, ``starts`` is not positive, ``seed`` negative or ``tolerance`` not positive.
+            there is no such task, ``starts`` is not positive, ``seed`` negative or ``tolerance`` not positive, or all
+            solutions are asked for and are infinitely many.
         EngineError, UnsupportedError: if Pinocchio does not take the robot.
     """
     robot = robot_of(robot)
@@ -135,11 +134,19 @@ def ik(
     task_rows(task, free.length)
     if not 0.0 < tolerance < math.inf:
         raise InputError("tolerance", f"tolerance={tolerance}", remedy="give a positive number, such as 1e-9")
+    if solutions not in SOLUTIONS:
+        raise InputError("solutions", f"solutions={solutions!r}", remedy=f"use {' or '.join(map(repr, SOLUTIONS))}")
     T, q, batch = _asked(free, T_base_tip, q0, limits)
-    search = _Search(free, engines or pair_of(robot), task, starts, seed, tolerance)
-    parts = [search.solve(T[i : i + BLOCK], q[i : i + BLOCK], q0 is not None) for i in range(0, len(T), BLOCK)]
-    found = [np.concatenate(part) for part in zip(*(parts or [search.solve(T, q, q0 is not None)]), strict=True)]
-    configurations, distance, angle, reason = found
+    both = engines or pair_of(robot)
+    search = Search(free, both, task, starts, seed, tolerance)
+    if solutions == "all":
+        require_isolated(free, both[0], task, search.drawn)
+        configurations, distance, angle, reason = every(search, T, q, q0 is not None)
+        batch = (*batch, reason.shape[1])
+    else:
+        parts = [search.solve(T[i : i + BLOCK], q[i : i + BLOCK], q0 is not None) for i in range(0, len(T), BLOCK)]
+        found = [np.concatenate(part) for part in zip(*(parts or [search.solve(T, q, q0 is not None)]), strict=True)]
+        configurations, distance, angle, reason = found
     return Solution(
         robot=robot.name,
         frame=free.frame,
@@ -150,92 +157,6 @@ def ik(
         angle_error=angle.reshape(batch),
         reason=reason.reshape(batch),
     )
-
-
-class _Search:
-    """The search for configurations of one robot's frame."""
-
-    def __init__(
-        self, free: Freedoms, engines: tuple[Engine, Engine], task: Task, starts: int, seed: int, tolerance: float
-    ) -> None:
-        self._free = free
-        self._engines = engines
-        self._task: Task = task
-        self._starts = starts
-        self._tolerance = tolerance
-        self._drawn = free.draw(seed, starts, DRAWN)
-        self._marks = self._features(Descent(free, engines[0], free.robot.neutral, task, 0.0).poses(self._drawn))
-
-    def solve(
-        self, T: FloatArray, q: FloatArray, given: bool
-    ) -> tuple[FloatArray, FloatArray, FloatArray, npt.NDArray[np.str_]]:
-        """Configurations (N, nq), errors (N,) in m and rad, and reasons (N,), from ``q`` (N, nq) first if ``given``."""
-        nearest = self._nearest(T)
-        first = q[:, self._free.q]
-        if given:
-            nearest = np.concatenate([first[:, None], nearest[:, : self._starts - 1]], axis=1)
-        x, reached = self._descend(self._free, T, nearest)
-        reason = np.where(reached, "", "unreachable").astype("U16")
-        missed = np.flatnonzero(~reached)
-        last = self._descent(self._free).run(T[missed], x[missed], LAST_STEPS, LAST_SETTLED, downhill=True)
-        x[missed] = last.x
-        reason[missed[~last.settled]] = "stalled"
-        reason[missed[last.converged]] = ""
-        missed = missed[~last.converged]
-        if np.isfinite(self._free.limits[~self._free.wraps]).any():
-            _, beyond = self._descend(self._free.unlimited(), T[missed], nearest[missed])
-            reason[missed[beyond]] = "outside limits"
-        out = self._free.put(q, self._free.nearest_turn(x, first))
-        distance, angle = self._errors(T, out)
-        # A comparison with NaN is false, so the good ones are asked for.
-        good = distance <= self._tolerance * max(1.0, self._free.length)
-        if self._task == "pose":
-            good &= angle <= self._tolerance
-        reason[~good & (reason == "")] = "unconfirmed"
-        reason[good] = ""
-        return out, distance, angle, reason
-
-    def _descend(self, free: Freedoms, T: FloatArray, starts: FloatArray) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
-        """The best values (N, m) from starts (N, S, m), tried in rounds of growing size, and whether they do."""
-        descent = self._descent(free)
-        x, error, reached = starts[:, 0].copy(), np.full(len(T), np.inf), np.zeros(len(T), dtype=bool)
-        at, size = 0, 1
-        while at < starts.shape[1] and not reached.all():
-            left = np.flatnonzero(~reached)
-            chosen = starts[left, at : at + size]
-            count = chosen.shape[1]
-            lanes = descent.run(np.repeat(T[left], count, axis=0), chosen.reshape(-1, len(free.q)), STEPS, SETTLED)
-            converged, errors = lanes.converged.reshape(-1, count), lanes.error.reshape(-1, count)
-            # The first that converged, or else the one with the least error.
-            best = np.where(converged.any(axis=1), converged.argmax(axis=1), errors.argmin(axis=1))
-            rows = np.arange(len(left))
-            reached[left] = converged[rows, best]
-            better = reached[left] | (errors[rows, best] < error[left])
-            x[left[better]] = lanes.x.reshape(-1, count, len(free.q))[rows, best][better]
-            error[left[better]] = errors[rows, best][better]
-            at, size = at + size, GROWTH * size
-        return x, reached
-
-    def _descent(self, free: Freedoms) -> Descent:
-        return Descent(free, self._engines[0], free.robot.neutral, self._task, max(LEAST, MARGIN * self._tolerance))
-
-    def _features(self, T: FloatArray) -> FloatArray:
-        """Numbers (N, k) whose distances tell how far poses are from each other."""
-        p = T[:, :3, 3] / self._free.length
-        # ‖R₁ - R₂‖² = 4 (1 - cos θ), twice the squared angle where that is small.
-        return p if self._task == "position" else np.concatenate([p, T[:, :3, :3].reshape(-1, 9) / math.sqrt(2.0)], 1)
-
-    def _nearest(self, T: FloatArray) -> FloatArray:
-        """The drawn configurations nearest to each target, shape (N, starts, m), nearest first."""
-        distances = (self._marks**2).sum(axis=1) - 2.0 * self._features(T) @ self._marks.T
-        order = np.argsort(distances, axis=1, kind="stable")[:, : self._starts]
-        return self._drawn[order]
-
-    def _errors(self, T: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Distances and angles (N,) from the targets, by the second engine."""
-        found = self._engines[1].fk(q, self._free.frame)
-        turn = so3.log(np.swapaxes(found[:, :3, :3], 1, 2) @ T[:, :3, :3])
-        return np.linalg.norm(found[:, :3, 3] - T[:, :3, 3], axis=1), np.linalg.norm(turn, axis=1)
 
 
 def _asked(
