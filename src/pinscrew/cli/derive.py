@@ -13,6 +13,7 @@ from pinscrew.cli import arguments, output
 if TYPE_CHECKING:
     from pinscrew.derivation.derivation import Derivation
     from pinscrew.derivation.proof import Proof
+    from pinscrew.derivation.writer import Detail
 
 __all__ = ["command"]
 
@@ -51,6 +52,13 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     metavar="PART",
     help="Only these sections, by letter (d), key (pose) or name (T, Js, Jb, Jh, Ad): i,l or repeated. "
     "Part n, singularities, is shown only so.",
+)
+@click.option(
+    "--detail",
+    type=click.Choice(["result", "steps", "full"]),
+    default="steps",
+    show_default=True,
+    help="How much of the way is shown: results alone, the products they are of, or every matrix on the way.",
 )
 @click.option(
     "--convention",
@@ -138,6 +146,7 @@ def _report(
     tip: str | None,
     reference: str | None,
     parts: tuple[str, ...],
+    detail: Detail,
     symbols: bool,
     named: dict[str, float],
     language: str | None,
@@ -173,13 +182,15 @@ def _report(
         if proof.ok:
             read_back_code(derivation, text, language, kind)
         return text, proof.ok
-    return _written(derivation, derivation.prove(samples, seed), form, parts)
+    return _written(derivation, derivation.prove(samples, seed), form, parts, detail)
 
 
-def _written(derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...]) -> tuple[str, bool]:
+def _written(
+    derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...], detail: Detail
+) -> tuple[str, bool]:
     from pinscrew.derivation import reports
 
-    whole = reports.report(derivation, proof, parts)
+    whole = reports.report(derivation, proof, parts, detail=detail)
     if not proof.ok:  # what is wrong already is not held against the engines once more
         return reports.write(whole, form), False
     return reports.written(derivation, whole, form), True

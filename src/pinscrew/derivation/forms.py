@@ -189,6 +189,11 @@ class ClosedForms:
         return tuple(self.write(normal_forms.adjoint(g)) for g in self.normal.before)
 
     @cached_property
+    def tails(self) -> tuple[sp.ImmutableMatrix, ...]:
+        """g_i = e^{ξ̂i θi} … e^{ξ̂n θn} g(0) of each joint, of shape (4, 4)."""
+        return tuple(self.write(g) for g in self.normal.tails)
+
+    @cached_property
     def body_adjoints(self) -> tuple[sp.ImmutableMatrix, ...]:
         """Ad⁻¹(e^{ξ̂i θi} … e^{ξ̂n θn} g(0)) of each joint, of shape (6, 6)."""
         return tuple(self.write(normal_forms.adjoint_inverse(g)) for g in self.normal.tails)

@@ -12,6 +12,7 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
+from pinscrew.derivation.step_quantities import step_quantity
 from pinscrew.derivation.truth import Truth
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import FloatArray
@@ -27,6 +28,7 @@ Token: TypeAlias = str | Grid
 _TOKEN: Final = re.compile(r"\\[A-Za-z]+|\\.|\d+|\S")
 _SIZES: Final = {r"\left", r"\right", r"\,", r"\;", r"\ "}
 _KINDS: Final[dict[str, str]] = {"s": "spatial", "b": "body", "h": "hybrid"}
+_TURN: Final = re.compile(r"(?:\\hat\{\\omega\}_\{?(\d+)\}?|\[\\omega_\{?(\d+)\}?\])(.+)")
 _POWER: Final = re.compile(r"(?:\\hat\{\\xi\}_\{?(\d+)\}?|\[\\mathcal\{S\}_\{?(\d+)\}?\])(.+)")
 _SWAPPED: Final = [3, 4, 5, 0, 1, 2]
 
@@ -58,7 +60,7 @@ class Names:
     points: Mapping[int, FloatArray]
 
     def value(self, side: Side) -> tuple[FloatArray, list[FloatArray]]:
-        """The value of a side of an equation, shape (N, rows, columns), and those of its factors if it is a product.
+        """The value of a side of an equation, shape (N, rows, columns), and those of the factors of its terms.
 
         Raises:
             NotUnderstoodError: something in it is no such name.
@@ -112,13 +114,15 @@ class _Side:
 
     def _sum(self) -> FloatArray:
         total: FloatArray | None = None
+        factors: list[FloatArray] = []
         while total is None or self._ahead() in ("+", "-"):
             sign = self._ahead() if self._ahead() in ("+", "-") else "+"
             self._at += self._ahead() in ("+", "-")
             term = self._product()
             term = -term if sign == "-" else term
-            self.factors = self.factors if total is None else []
+            factors += self.factors
             total = term if total is None else total + term
+        self.factors = factors
         return total
 
     def _product(self) -> FloatArray:
@@ -205,7 +209,7 @@ class _Side:
 
     def _named(self, base: str, sub: str, sup: str) -> FloatArray:
         truth, at = self._names.truth, self._at
-        found: FloatArray | None = None
+        found = step_quantity(truth, base, sub, sup)
         if base in ("g", "T") and not sub:
             argument = self._argument()
             found = {("0", ""): truth.home, ("", "-1"): np.asarray(se3.inverse(truth.pose))}.get((argument, sup))
@@ -222,15 +226,13 @@ class _Side:
             i = int(sub)
             columns = {"'": "spatial", r"\dagger": "body"}
             found = self._names.twist(truth.column(columns[sup], i) if sup in columns else truth.twist(i))
-        elif base in ("v", r"\omega") and sub.isdecimal() and not sup:
-            found = truth.twist(int(sub))[:, :3] if base == "v" else truth.twist(int(sub))[:, 3:]
         elif base == "q" and sub.isdecimal():
             found = self._names.points.get(int(sub))
         elif base == r"\dot{\theta}" and not sub + sup:
             found = self._names.rates[:, :, None]
         elif partial := re.fullmatch(r"\\frac\{\\partial[gT]\}\{\\partial (.*)\}", base):
             found = truth.partial_rate(self._names.joint(partial[1].replace(" ", "")))
-        elif not sup:
+        elif not sup and found is None:
             found = self._names.scalar(f"{base}_{{{sub}}}" if sub else base)[:, None, None]
         if found is None:
             self._at = at
@@ -261,11 +263,13 @@ class _Side:
 
     def _exponential(self, sub: str, sup: str) -> FloatArray | None:
         names = self._names
-        power = _POWER.fullmatch(sup)
+        turn = _TURN.fullmatch(sup)
+        power = turn or _POWER.fullmatch(sup)
         if power and not sub:
             i = int(power[1] or power[2])
             right = names.joint(power[3]) == i
-            return names.truth.exponential(i) if right else None
+            found = names.truth.exponential(i) if right else None
+            return found if found is None or not turn else found[:, :3, :3]
         if sub.isdecimal() and not sup:
             return np.broadcast_to(
                 np.eye(names.rates.shape[1])[:, int(sub) - 1 : int(sub)], (len(names.rates), names.rates.shape[1], 1)

@@ -16,12 +16,19 @@ from pinscrew.derivation.sections import sections
 from pinscrew.derivation.sketch import sketch
 from pinscrew.derivation.terminal import to_terminal
 from pinscrew.derivation.typeset import Typesetter
+from pinscrew.derivation.writer import Detail
 from pinscrew.ground.errors import InputError
 
 __all__ = ["given", "report", "write", "written"]
 
 
-def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extra: Sequence[Section] = ()) -> Writeup:
+def report(
+    derivation: Derivation,
+    proof: Proof,
+    parts: Iterable[str] = (),
+    extra: Sequence[Section] = (),
+    detail: Detail = "steps",
+) -> Writeup:
     """The report of a derivation.
 
     Args:
@@ -29,12 +36,13 @@ def report(derivation: Derivation, proof: Proof, parts: Iterable[str] = (), extr
         proof: what the engines say of them.
         parts: keys or letters of sections; by default those that fit the robot's size.
         extra: further sections, before the proof.
+        detail: ``"result"`` for results alone, ``"full"`` for every matrix on the way.
 
     Raises:
-        InputError: if there is no such part.
+        InputError: if there is no such part or detail.
     """
     d = derivation
-    listed = (given(d), *sections(d, parts), *extra, _proof(proof))
+    listed = (given(d), *sections(d, parts, detail), *extra, _proof(proof))
     title = f"Closed-form kinematics of {from_file(d.robot.name)}"
     return Writeup(title, listed, _code(d), proof.ok)
 

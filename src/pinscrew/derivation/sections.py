@@ -9,18 +9,18 @@ from collections.abc import Callable, Iterable
 
 import sympy as sp
 
+from pinscrew.derivation import steps
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, named
 from pinscrew.derivation.derivation import Derivation
-from pinscrew.derivation.notation import NOTATIONS
 from pinscrew.derivation.parts import PARTS, wanted
-from pinscrew.derivation.typeset import Typesetter
+from pinscrew.derivation.writer import Detail, Writer
 
 __all__ = ["sections"]
 
 
-def sections(derivation: Derivation, parts: Iterable[str] = ()) -> list[Section]:
-    """The sections that are asked for, in order; see `wanted`."""
-    writer = _Writer(derivation)
+def sections(derivation: Derivation, parts: Iterable[str] = (), detail: Detail = "steps") -> list[Section]:
+    """The sections that are asked for, in order, and how much of each; see `wanted` and `writer`."""
+    writer = _Sections(derivation, detail)
     makers: dict[str, tuple[str, Callable[[], Iterable[Block]]]] = {
         "home": ("Home pose and axes", writer.home),
         "twists": ("Twists", writer.twists),
@@ -45,55 +45,8 @@ def sections(derivation: Derivation, parts: Iterable[str] = ()) -> list[Section]
     return listed
 
 
-class _Writer:
+class _Sections(Writer):
     """Writes the sections of one derivation."""
-
-    def __init__(self, derivation: Derivation) -> None:
-        self.d = derivation
-        self.n = NOTATIONS[derivation.convention]
-        self.set = Typesetter(derivation)
-        self.values = [self.set(joint.variable.symbol) for joint in derivation.chain.joints]
-        self.pose_name = self.n.pose.split("(", maxsplit=1)[0]
-        self.numbers = range(1, len(self.values) + 1)
-        self.small = not derivation.large
-        self.explained: set[sp.Symbol] = set()
-
-    def short_forms(self) -> Iterable[Block]:
-        """What the sines and cosines that were written since this was last asked for are short for, in order."""
-        order = self.d.atoms.order
-        new = sorted((self.set.used & order.keys()) - self.explained, key=order.__getitem__)
-        self.explained.update(new)
-        if new:
-            shown = ", ".join(f"${self.set(symbol)} = {self._meaning(symbol)}$" for symbol in new)
-            yield Paragraph(f"Sines and cosines are written in short: {shown}.")
-
-    def _meaning(self, symbol: sp.Symbol) -> str:
-        in_joints, in_coordinates = self.d.explicit(symbol), self.d.in_coordinates(symbol)
-        shown = self.set(in_joints)
-        return shown if in_joints == in_coordinates else f"{shown} = {self.set(in_coordinates)}"
-
-    def twist(self, i: int) -> str:
-        return self.n.twist.format(i)
-
-    def exponential(self, i: int) -> str:
-        return self.n.exponential(i, self.values[i - 1])
-
-    def column(self, matrix: sp.Matrix) -> str:
-        return self.set.matrix(self.n.rows(matrix))
-
-    def result(self, *head: str, matrix: sp.Matrix, name: str) -> list[Block]:
-        """``head = matrix``, the entries one by one where it is wide."""
-        if not self.set.is_wide(matrix):
-            return [Formula((*head, self.set.matrix(matrix)))]
-        placeholders, entries, sums = self.set.entries(name, matrix)
-        blocks: list[Block] = [Formula((*head, placeholders)), Paragraph("with the entries"), *map(Formula, entries)]
-        if sums:
-            blocks += [Paragraph("where the long sums have names of their own:"), *map(Formula, sums)]
-        return blocks
-
-    def cite(self, topic: str) -> str:
-        book = "MLS" if self.d.convention == "mls" else "LP"
-        return f"{book}, {self.n.equations[topic]}"
 
     def home(self) -> Iterable[Block]:
         d, n = self.d, self.n
@@ -109,6 +62,17 @@ class _Writer:
                 yield Formula((rf"\omega_{{{i}}}", rf"0 , \quad v_{{{i}}}", self.set.matrix(screw.v)))
 
     def twists(self) -> Iterable[Block]:
+        if self.steps:
+            yield from self._general_twist()
+        for i, screw in enumerate(self.d.screws, 1):
+            if screw.revolute and self.steps:
+                product = f"-{self.set.matrix(screw.omega)} \\times {self.set.matrix(screw.q)}"
+                head = (rf"-\omega_{{{i}}} \times q_{{{i}}}", product, self.set.matrix(screw.v))
+                yield Formula(head)
+            yield Formula((self.twist(i), self.column(screw.twist)))
+        yield from self._followers()
+
+    def _general_twist(self) -> Iterable[Block]:
         turning = (
             r"\begin{bmatrix} \omega \\ -\omega \times q \end{bmatrix}"
             if self.n.angular_first
@@ -119,13 +83,6 @@ class _Writer:
             f"{self.n.order}), one that slides along $v$ has $\\omega = 0$."
         )
         yield Formula((self.twist(0).replace("_{0}", ""), turning))
-        for i, screw in enumerate(self.d.screws, 1):
-            if screw.revolute:
-                product = f"-{self.set.matrix(screw.omega)} \\times {self.set.matrix(screw.q)}"
-                head = (rf"-\omega_{{{i}}} \times q_{{{i}}}", product, self.set.matrix(screw.v))
-                yield Formula(head)
-            yield Formula((self.twist(i), self.column(screw.twist)))
-        yield from self._followers()
 
     def _followers(self) -> Iterable[Block]:
         if not self.d.follows:
@@ -150,15 +107,26 @@ class _Writer:
             )
 
     def exponentials(self) -> Iterable[Block]:
+        if self.steps:
+            yield from self._general_exponential()
+        for i, matrix in enumerate(self.d.exponentials, 1):
+            if self.full:
+                yield from steps.exponential(self, i)
+            yield from self.result(self.exponential(i), matrix=matrix, name=f"e{i}")
+
+    def _general_exponential(self) -> Iterable[Block]:
         hat = self.n.hat.format(r"\omega")
         yield Paragraph(f"With $R$ by Rodrigues' formula ({self.cite('exponential')}):")
         matrix = r"\begin{bmatrix} R & (I - R) q \\ 0 & 1 \end{bmatrix}"
         rodrigues = rf"I + {hat} \sin\theta + {hat}^{{2}} (1 - \cos\theta)"
         yield Formula((self.n.exponential(0, r"\theta").replace("_{0}", ""), rf"{matrix} , \quad R", rodrigues))
-        for i, matrix in enumerate(self.d.exponentials, 1):
-            yield from self.result(self.exponential(i), matrix=matrix, name=f"e{i}")
 
     def pose(self) -> Iterable[Block]:
+        if self.steps:
+            yield from self._pose_steps()
+        yield from self.result(self.n.pose, matrix=self.d.pose, name="g")
+
+    def _pose_steps(self) -> Iterable[Block]:
         d, n = self.d, self.n
         yield Paragraph(f"The pose is the product of the exponentials and the home pose ({self.cite('pose')}):")
         yield Formula((n.pose, " ".join((*map(self.exponential, self.numbers), n.home))))
@@ -166,13 +134,15 @@ class _Writer:
             if i > 1 and self.small:
                 so_far = " ".join(self.exponential(k) for k in range(1, i + 1))
                 yield from self.result(so_far, matrix=partial, name="P")
-        if self.small and d.screws and d.home != sp.eye(4):
-            both = f"{self.set.matrix(d.partial_products[-1])} {self.set.matrix(d.home)}"
-            if not self.set.is_wide(d.partial_products[-1]):
-                yield Formula((n.pose, both))
-        yield from self.result(n.pose, matrix=d.pose, name="g")
+        if self.small and d.screws and d.home != sp.eye(4) and not self.set.is_wide(d.partial_products[-1]):
+            yield Formula((n.pose, f"{self.set.matrix(d.partial_products[-1])} {self.set.matrix(d.home)}"))
 
     def rate(self) -> Iterable[Block]:
+        if self.steps:
+            yield from self._rate_steps()
+        yield from self.result(self.n.pose_rate, matrix=self.d.pose_rate, name=r"\dot{g}")
+
+    def _rate_steps(self) -> Iterable[Block]:
         rates = [self.set(joint.variable.rate) for joint in self.d.chain.joints]
         pose = self.pose_name
         terms = [rf"\frac{{\partial {pose}}}{{\partial {v}}} {r}" for v, r in zip(self.values, rates, strict=True)]
@@ -180,7 +150,6 @@ class _Writer:
         yield from self._following_rates()
         for term, matrix in zip(terms, self.d.pose_rates, strict=True):
             yield from self.result(term, matrix=matrix, name="t")
-        yield from self.result(self.n.pose_rate, matrix=self.d.pose_rate, name=r"\dot{g}")
 
     def _following_rates(self) -> Iterable[Block]:
         following = [joint for joint in self.d.chain.joints if joint.master is not joint.variable]
@@ -191,33 +160,47 @@ class _Writer:
 
     def inverse(self) -> Iterable[Block]:
         general = r"\begin{bmatrix} R^{T} & -R^{T} p \\ 0 & 1 \end{bmatrix}"
-        yield Paragraph(f"With $R$ and $p$ of the pose ({self.cite('inverse')}):")
-        yield from self.result(f"{self.pose_name}^{{-1}}", general, matrix=self.d.inverse, name="i")
+        if self.steps:
+            yield Paragraph(f"With $R$ and $p$ of the pose ({self.cite('inverse')}):")
+        head = (f"{self.pose_name}^{{-1}}", general) if self.steps else (f"{self.pose_name}^{{-1}}",)
+        yield from self.result(*head, matrix=self.d.inverse, name="i")
 
     def velocity_matrix(self) -> Iterable[Block]:
-        yield Paragraph(f"The product of (f) and (e) ({self.cite('velocity')}):")
         head = (self.n.body_velocity_hat, f"{self.pose_name}^{{-1}} {self.n.pose_rate}")
-        if self.small and not self.set.is_wide(self.d.pose_rate) and not self.set.is_wide(self.d.inverse):
-            yield Formula((*head, f"{self.set.matrix(self.d.inverse)} {self.set.matrix(self.d.pose_rate)}"))
+        if self.steps:
+            yield Paragraph(f"The product of (f) and (e) ({self.cite('velocity')}):")
+            if self.small and not self.set.is_wide(self.d.pose_rate) and not self.set.is_wide(self.d.inverse):
+                yield Formula((*head, f"{self.set.matrix(self.d.inverse)} {self.set.matrix(self.d.pose_rate)}"))
         yield from self.result(*head, matrix=self.d.body_hat, name=r"\hat{v}")
 
     def velocity(self) -> Iterable[Block]:
-        v = r"\begin{bmatrix} \hat{\omega} & v \\ 0 & 0 \end{bmatrix}"
-        yield Paragraph("The matrix has the two parts of the twist in it:")
-        yield Formula((self.n.body_velocity_hat, v.replace(r"\hat{\omega}", self.n.hat.format(r"\omega"))))
+        if self.steps:
+            v = r"\begin{bmatrix} \hat{\omega} & v \\ 0 & 0 \end{bmatrix}"
+            yield Paragraph("The matrix has the two parts of the twist in it:")
+            yield Formula((self.n.body_velocity_hat, v.replace(r"\hat{\omega}", self.n.hat.format(r"\omega"))))
+        if self.full:
+            yield from steps.velocity(self)
         yield from self.result(self.n.body_velocity, matrix=self.n.rows(self.d.body_velocity), name="v")
 
     def body_jacobian(self) -> Iterable[Block]:
-        yield Paragraph(f"Column by column, each twist as the tool sees it ({self.cite('body')}):")
-        for i in self.numbers:
+        if self.steps:
+            yield Paragraph(f"Column by column, each twist as the tool sees it ({self.cite('body')}):")
+        if self.full:
+            corner = f"-R^{{T}} {self.hat('p')}"
+            yield Paragraph(f"The inverse adjoint of ${self.pose_name}_{{i}}$ has $R^{{T}}$ and ${corner}$ in it.")
+        for i in self.numbers if self.steps else ():
+            if self.full:
+                yield from steps.suffix(self, i)
             product = " ".join(self.exponential(k) for k in range(i, len(self.values) + 1))
             head = rf"\mathrm{{Ad}}^{{-1}}_{{\left({product} {self.n.home}\right)}} {self.twist(i)}"
             yield from self._jacobian_column("body", self.n.body_column.format(i), head, i)
         yield from self._jacobian("body", self.n.body)
 
     def spatial_jacobian(self) -> Iterable[Block]:
-        yield Paragraph(f"Column by column, each twist as the joints before it have moved it ({self.cite('spatial')}):")
-        for i in self.numbers:
+        if self.steps:
+            seen = "each twist as the joints before it have moved it"
+            yield Paragraph(f"Column by column, {seen} ({self.cite('spatial')}):")
+        for i in self.numbers if self.steps else ():
             product = " ".join(self.exponential(k) for k in range(1, i))
             head = rf"\mathrm{{Ad}}_{{\left({product}\right)}} {self.twist(i)}" if product else self.twist(i)
             yield from self._jacobian_column("spatial", self.n.spatial_column.format(i), head, i)
@@ -237,8 +220,9 @@ class _Writer:
     def _jacobian(self, kind: str, name: str) -> Iterable[Block]:
         d = self.d
         column = self.n.body_column if kind == "body" else self.n.spatial_column
-        if d.follows:
+        if d.follows and self.steps:
             yield Paragraph("A coordinate's column is the sum of its joints', each times its multiplier:")
+        if d.follows or not self.steps:
             yield from self.result(name, matrix=self.n.rows(d.jacobian(kind)), name="J")
             return
         columns = " & ".join(column.format(i) for i in self.numbers)
@@ -250,7 +234,7 @@ class _Writer:
         jacobian = d.jacobian("body")
         rates = sp.Matrix([variable.rate for variable in d.coordinates])
         head: tuple[str, ...] = (self.n.body_velocity, rf"{self.n.body} \dot{{\theta}}")
-        if not self.set.is_wide(jacobian):
+        if self.steps and not self.set.is_wide(jacobian):
             head = (*head, f"{self.column(jacobian)} {self.set.matrix(rates)}")
         yield from self.result(*head, matrix=self.n.rows(d.body_velocity), name="V")
         yield Paragraph("It is (h), entry for entry." if d.velocities_agree else "It is NOT (h): one of them is wrong.")
@@ -270,6 +254,8 @@ class _Writer:
             carries = "The adjoint of the pose carries the body Jacobian to the spatial one"
             yield Paragraph(f"{carries} ({self.cite('adjoint')}):")
             name = rf"\mathrm{{Ad}}_{{{self.pose_name}}}"
+            if self.full:
+                yield from steps.adjoint(self)
             yield Formula((self.n.spatial, f"{name} {self.n.body}"))
             yield from self.result(name, self.n.adjoint, matrix=self.n.both(self.d.adjoint), name="a")
 

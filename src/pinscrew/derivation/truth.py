@@ -119,6 +119,13 @@ class Truth:
         N = len(self._drawn.q)
         return np.asarray(self._free[0][i * N : (i + 1) * N] @ se3.inverse(self.home))
 
+    def tail(self, i: int) -> FloatArray:
+        """g_i = e^{ξ̂i θi} … e^{ξ̂n θn} g(0)."""
+        found = self.home
+        for k in range(self.joints, i - 1, -1):
+            found = self.exponential(k) @ found
+        return found
+
     def twist(self, i: int) -> FloatArray:
         """ξi: column i of J^s where all joints are at zero."""
         return self._columns("spatial", 0)[:, :, i - 1 : i]
