@@ -15,11 +15,12 @@ from pinscrew.derivation.atoms import Atoms
 from pinscrew.derivation.chain import Elements, ScrewChain, Variable
 from pinscrew.derivation.exact import Snapped
 from pinscrew.derivation.factoring import Factoring
+from pinscrew.derivation.joint_screw import JointScrew
 from pinscrew.derivation.reading import JointGeometry
 from pinscrew.ground.typing import KINDS, KindLike, jacobian_kind
 from pinscrew.robot.robot import Robot
 
-__all__ = ["ClosedForms", "Convention", "JointScrew"]
+__all__ = ["ClosedForms", "Convention"]
 
 LARGE: Final = 4
 """Joints above which an arm is `Derivation.large`."""
@@ -27,32 +28,6 @@ MANY: Final = 100
 """Terms of the pose above which it is, too: axes at odd angles."""
 
 Convention: TypeAlias = Literal["mls", "lynch-park"]
-
-
-@dataclass(frozen=True, slots=True)
-class JointScrew:
-    """A joint's screw at zero, in the base frame or the frame that is taken for it.
-
-    Attributes:
-        joint: the joint's name.
-        revolute: whether it turns; otherwise it slides.
-        omega: ω, unit vector, shape (3, 1); zero if it slides.
-        q: a point of the axis (m), shape (3, 1).
-        v: -ω × q, or the direction in which it slides; shape (3, 1).
-        value: its value (rad or m) in terms of the coordinates.
-    """
-
-    joint: str
-    revolute: bool
-    omega: sp.ImmutableMatrix
-    q: sp.ImmutableMatrix
-    v: sp.ImmutableMatrix
-    value: sp.Expr
-
-    @property
-    def twist(self) -> sp.ImmutableMatrix:
-        """ξ = (v, ω), shape (6, 1)."""
-        return sp.ImmutableMatrix.vstack(self.v, self.omega)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
