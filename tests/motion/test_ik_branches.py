@@ -104,6 +104,8 @@ def test_ur5() -> None:
     counts = found.solved.sum(axis=1)
     assert counts.tolist() == [ur5_ways(pose) for pose in T]
     assert set(counts) >= {2, 8}
+    few = ps.ik(robot, T, q, frame="tool0", solutions="all", starts=16)
+    assert few.solved.sum(axis=1).tolist() == counts.tolist(), "it goes on until each was met twice"
 
 
 def test_anthropomorphic() -> None:

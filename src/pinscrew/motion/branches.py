@@ -84,7 +84,7 @@ def _branches(search: Search, T: FloatArray, first: FloatArray) -> FloatArray:
     """Values (k, m) that reach a target (4, 4) by the first engine, the nearest to ``first`` (m,) first."""
     free = search.free
     descent = search.descent(free)
-    found, met = np.empty((0, len(free.q))), np.empty(0, dtype=np.intp)
+    found, met = np.empty((0, len(free.q))), list[int]()
     for i in range(0, len(search.drawn), search.starts):
         starts = search.drawn[i : i + search.starts]
         lanes = descent.run(np.broadcast_to(T, (len(starts), 4, 4)), starts, STEPS, SETTLED)
@@ -93,8 +93,9 @@ def _branches(search: Search, T: FloatArray, first: FloatArray) -> FloatArray:
             if len(same):
                 met[same[0]] += 1
             else:
-                found, met = np.vstack([found, x]), np.append(met, 1)
-        if len(met) and met.min() > 1:
+                found = np.vstack([found, x])
+                met.append(1)
+        if met and min(met) > 1:
             break
     return np.asarray(found[np.argsort(_apart(free, found, first).sum(axis=1), kind="stable")])
 
