@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from command_line import process
 from pinscrew.ground import files
 from pinscrew.ground.errors import InputError, MissingExtraError
 from pinscrew.view import figures
@@ -63,6 +64,14 @@ def test_without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
         with pytest.raises(MissingExtraError, match=r'pip install "pinscrew\[plot\]"') as caught:
             call()
         assert caught.value.extra == "plot"
+
+
+def test_settings_of_matplotlib_that_it_refuses() -> None:
+    """Such as a backend that does not exist; ours needs none."""
+    done = process("workspace", "one_joint", "--samples", "2", "--plot", "a.png", MPLBACKEND="none")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.count("\n") == 1
+    assert "matplotlib can't be loaded with its settings" in done.stderr
 
 
 def test_files_are_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -268,6 +269,9 @@ def test_bad_tables(content: str, says: str, tmp_path: Path) -> None:
     )
 
 
+HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (10000000000000000, 3)}".ljust(117) + b"\n"
+
+
 def test_bad_archives(tmp_path: Path) -> None:
     file = tmp_path / "a.npz"
     np.savez(file, q=np.zeros(3), J=np.array([object()]))
@@ -276,6 +280,13 @@ def test_bad_archives(tmp_path: Path) -> None:
     assert "lacks its arrays" in refused("identify", "scara", "--samples", file)
     file.write_bytes(b"PK\x03\x04 not really")
     assert "no archive of plain arrays" in refused("identify", "scara", "--samples", file)
+    for member, flag in ((b"\x93NUMPY\x01\0v\0" + HUGE, 0), (b"", 1)):  # more than any memory has; encrypted
+        with zipfile.ZipFile(file, "w") as archive:
+            archive.writestr("q.npy", member)
+        data = file.read_bytes()
+        directory = data.index(b"PK\x01\x02")
+        file.write_bytes(data[: directory + 8] + bytes([flag]) + data[directory + 9 :])
+        assert "no archive of plain arrays" in refused("identify", "scara", "--samples", file)
     assert "no such file" in refused("identify", "scara", "--samples", tmp_path / "b.npz")
     assert "give --samples" in refused("identify", "scara")
 

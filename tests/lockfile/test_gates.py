@@ -221,6 +221,7 @@ def test_settings(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         ("[tool.pinscrew]\nfail_on = [1]\n", "settings"),
         ("[tool]\npinscrew = 1\n", "settings"),
         ("[tool.pinscrew\n", "settings"),
+        pytest.param("a = " + "[" * 100_000, "settings", id="nested"),
         ('[tool.pinscrew]\nfail_on = ["name"]\n', "fail-on"),
     ],
 )

@@ -163,3 +163,11 @@ def test_samples_are_within_limits_or_what_stands_for_them(text: str) -> None:
         np.testing.assert_allclose(np.linalg.norm(q[:, sorted(free)], axis=1), 1.0, rtol=1e-12)
     assert not np.array_equal(q, samples(robot, 500, 0.7, seed=4))
     ps.PoE(robot).fk(q, "tool")
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_limits_as_wide_as_numbers_go(kind: str) -> None:
+    """Their difference is no number."""
+    text = urdfs.robot(urdfs.joint("a", kind, "base", "tool", limits=(-1.7e308, 1.7e308)), links="base tool")
+    assert abs(samples(urdfs.load(text), 50, 0.7)).max() <= 1e6 * math.pi
+    assert np.isfinite(model(text=text).scales.linear).all()

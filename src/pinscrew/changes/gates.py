@@ -105,6 +105,8 @@ def section(file: Path) -> Any:
         return tomllib.loads(file.read_text(encoding="utf-8")).get("tool", {}).get("pinscrew", {})
     except (OSError, ValueError, AttributeError) as error:  # AttributeError: 'tool' is no table
         raise InputError("settings", f"can't be read: {error}", where=str(file)) from None
+    except (RecursionError, MemoryError):
+        raise InputError("settings", "can't be read: it is nested too deeply", where=str(file)) from None
 
 
 def nearest(folder: Path) -> Path | None:

@@ -133,6 +133,7 @@ ERRORS: Final[dict[str, str]] = {
     "weights": "Weights are negative or all zero.",
     "bounds": "Bounds of rates exclude 0, or are asked for where a rate is none of a coordinate.",
     "not-positive": "A number is not positive.",
+    "figure-settings": "matplotlib can't be loaded with its settings, or with what the environment says of them.",
     "figure-suffix": "A figure is to be written with a suffix that is none of `.png`, `.svg` and `.pdf`.",
     "out": "An array to write results to has another shape or type, is read-only, or overlaps the coordinates.",
     "threads": "A number of threads is below 1 or above that of the machine's cores.",

@@ -8,13 +8,21 @@ import os
 import re
 import secrets
 import stat
+import struct
+import zipfile
+import zlib
 from pathlib import Path
 from typing import BinaryIO, Final
 
 from pinscrew.ground.errors import InputError
 
-__all__ = ["append", "check", "open_plain", "write"]
+__all__ = ["BROKEN_ARCHIVE", "append", "check", "open_plain", "write"]
 
+BROKEN_ARCHIVE: Final = (
+    *(OSError, EOFError, ValueError, KeyError, SyntaxError, TypeError, MemoryError, RuntimeError),
+    *(zipfile.BadZipFile, zlib.error, struct.error),
+)
+"""What zip, zlib and numpy say of archives that are damaged, encrypted, or claim to be larger than memory."""
 _STREAM: Final = re.compile("/dev/(?:(stdout|stderr)|fd/([0-9]{1,9}))")
 """An open stream, which may be a file that is not to be replaced: another process may hold it too."""
 _NOT_PLAIN: Final = "it is no plain file"

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from pinscrew.ground.errors import InputError
-from pinscrew.ground.files import open_plain
+from pinscrew.ground.files import BROKEN_ARCHIVE, open_plain
 from pinscrew.ground.typing import FloatArray
 from pinscrew.ground.words import one_line
 
@@ -35,7 +35,7 @@ def read_arrays(file: Path) -> tuple[FloatArray, ...]:
                 raise InputError("too-large", f"unpacks to more than {LARGEST // 2**20} MB", where=str(file))
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             held = {name: archive[name] for name in archive.files}
-    except (ValueError, EOFError, KeyError, OSError, zipfile.BadZipFile, NotImplementedError) as error:
+    except BROKEN_ARCHIVE as error:
         reason = one_line(str(error)) or type(error).__name__
         what = f"is no archive of plain arrays ({reason})"
         raise InputError("samples-file", what, where=str(file), remedy="write it with numpy.savez") from None

@@ -80,3 +80,6 @@ def _require() -> None:
         import matplotlib as mpl  # noqa: F401 (only whether it is there)
     except ModuleNotFoundError:
         raise MissingExtraError("matplotlib is not installed", "plot") from None
+    except ValueError as error:  # a backend in the environment, say, that does not exist
+        what = f"matplotlib can't be loaded with its settings ({error})"
+        raise InputError("figure-settings", what, remedy="unset MPLBACKEND, or mend matplotlibrc") from None

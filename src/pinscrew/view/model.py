@@ -22,6 +22,8 @@ __all__ = ["Body", "Model", "Scales", "samples"]
 SMALLEST: Final = 1e-6
 """Size (m) given to a robot that has neither reach nor looks."""
 SAMPLES: Final = 64
+FARTHEST: Final = 1e6
+"""Limits beyond this many half turns, or sizes of the robot, count as this far for random configurations."""
 CROWDED: Final = 5
 """With more joints than this, what is drawn about each gets smaller."""
 
@@ -124,12 +126,14 @@ def samples(robot: Robot, count: int, size: float, seed: int = 0) -> FloatArray:
     """Random configurations within the limits, shape (count, nq).
 
     Where there are none, angles are within ±π and displacements within ± the robot's size; quaternions are uniform.
+    None is farther than `FARTHEST` times that.
     """
     rng = np.random.default_rng(seed)
     limits = robot.limits.copy()
     reach = np.where(robot.mechanism.coordinates.slides, size, np.pi)
     limits[:, 0] = np.where(np.isfinite(limits[:, 0]), limits[:, 0], -reach)
     limits[:, 1] = np.where(np.isfinite(limits[:, 1]), limits[:, 1], reach)
+    limits = np.clip(limits, -FARTHEST * reach[:, None], FARTHEST * reach[:, None])
     q: FloatArray = rng.uniform(limits[:, 0], limits[:, 1], (count, robot.nq))
     for motion in robot.mechanism.motions:
         if motion.joint.type == "floating":

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-import struct
 import zipfile
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final, TypeAlias
@@ -32,15 +30,10 @@ Metadata: TypeAlias = dict[str, Any]
 METADATA: Final = "metadata"
 """The array that holds the provenance, as JSON."""
 
-# What zip, zlib and numpy say of damaged files, or of files that claim to be larger than memory.
 MOST_SQUEEZED: Final = 100 * 2**20
 """Bytes that compressed members of an archive may have."""
 MOST_METADATA: Final = 10 * 2**20
 """Bytes of the provenance."""
-_BROKEN: Final = (
-    *(OSError, EOFError, ValueError, KeyError, SyntaxError, TypeError, MemoryError, RuntimeError),
-    *(zipfile.BadZipFile, zlib.error, struct.error),
-)
 
 
 def provenance(robot: Robot, engine: Engine, frame: str, axes: tuple[Axis, ...]) -> Metadata:
@@ -138,5 +131,5 @@ def _read(path: Path, schema: str) -> tuple[Arrays, str]:
             archive = np.load(stream, allow_pickle=False)
             told = {METADATA: archive[METADATA]} if METADATA in archive else {}
             return (dict(archive) if schema in str(told.get(METADATA, "")) else told), ""
-        except _BROKEN as error:
+        except files.BROKEN_ARCHIVE as error:
             return {}, str(error).partition(". ")[0] or type(error).__name__  # numpy goes on about pickles
