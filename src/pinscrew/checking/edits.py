@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
 from typing import Final, TypeAlias
 
 from pinscrew.derivation.derivation import Derivation
-from pinscrew.mathtext import Node, Number, Operation, Symbol
+from pinscrew.mathtext import Node, Number, Operation, Symbol, symbols
 
 __all__ = ["edits", "symbol_names"]
 
@@ -45,6 +45,7 @@ def edits(node: Node, names: Sequence[str]) -> Iterator[_Change]:
         lambda inner: _symbols(inner, names),
         _fewer,
         _numbers,
+        lambda inner: _throughout(inner, names) if inner is node else iter(()),
         lambda inner: _further(inner, names),
     )
     changes = chain.from_iterable(_everywhere(node, kind) for kind in kinds)
@@ -78,6 +79,31 @@ def _symbols(node: Node, names: Sequence[str]) -> Iterator[_Change]:
         for name in names:
             if name != mine.replace("_", ""):
                 yield f"{mine} for {name}", Symbol(name)
+
+
+def _throughout(node: Node, names: Sequence[str]) -> Iterator[_Change]:
+    """One symbol for another, or one index for another, wherever it stands."""
+    mine = sorted(symbols(node))
+    for old in mine:
+        for new in names:
+            if new != old.replace("_", ""):
+                yield f"{old} for {new} throughout", _renamed(node, {old: new})
+    indices = sorted({digit for name in mine for digit in name if digit.isdigit()})
+    for i in indices:
+        for j in sorted({digit for name in names for digit in name if digit.isdigit()} - {i}):
+            changed = {name: name.replace(i, j) for name in mine}
+            yield f"the index {i} for {j} throughout", _renamed(node, changed)
+    dotted = {name: name.replace("dd", "d", 1) for name in mine if name.startswith("dd")}
+    if dotted:
+        yield "a dot too many", _renamed(node, dotted)
+
+
+def _renamed(node: Node, names: Mapping[str, str]) -> Node:
+    if isinstance(node, Symbol):
+        return Symbol(names.get(node.name, node.name))
+    if isinstance(node, Operation):
+        return replace(node, operands=tuple(_renamed(operand, names) for operand in node.operands))
+    return node
 
 
 def _numbers(node: Node) -> Iterator[_Change]:

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from pinscrew.checking.grading import graded
 from pinscrew.checking.meanings import Meanings
 from pinscrew.checking.names import quantity_in_heading, quantity_named
 from pinscrew.checking.passages import Passage, passages
-from pinscrew.checking.run import checkable, definitions, graded, listed
+from pinscrew.checking.run import checkable, definitions, listed
 from pinscrew.checking.scope import Scope
 from pinscrew.checking.sheet import AnswerSheet, Refused
 from pinscrew.checking.texts import Assigned, Written, written
@@ -41,7 +42,9 @@ class _NamedMatrix:
     before: Mapping[str, Node]
 
 
-def check_file(robot: RobotLike, path: str | Path, *, tip: str | None = None) -> AnswerSheet:
+def check_file(
+    robot: RobotLike, path: str | Path, *, tip: str | None = None, reference: str | None = None
+) -> AnswerSheet:
     """Every quantity that a file of answers has, each held against its right form as `check` does.
 
     A matrix belongs to the quantity of its name, ``J^b = …`` or ``Jb = …``; one without a name to that of the heading
@@ -52,6 +55,7 @@ def check_file(robot: RobotLike, path: str | Path, *, tip: str | None = None) ->
         robot: a robot, or a name or path that `load` takes.
         path: Markdown, LaTeX, Python, MATLAB, a notebook or JSON, by its suffix.
         tip: the frame; by default the robot's tip.
+        reference: the frame 0 that the answers are in; by default the base.
 
     Raises:
         DescriptionError: the file is not there, can't be read, or is not UTF-8.
@@ -59,7 +63,7 @@ def check_file(robot: RobotLike, path: str | Path, *, tip: str | None = None) ->
         UnsupportedError: see `check`.
     """
     path = Path(path)
-    derivation = checkable(robot, tip)
+    derivation = checkable(robot, tip, reference)
     stands = passages(markup.read(path), path.suffix.lower())
     joints = len(derivation.chain.joints)
     found, later = _found(stands, derivation)
@@ -79,7 +83,7 @@ def check_file(robot: RobotLike, path: str | Path, *, tip: str | None = None) ->
         try:
             if each.matrix is None:
                 raise InputError("formula", each.reason)
-            verdict = graded(derivation, key, each.matrix, {**later, **each.before})
+            verdict = graded(derivation, key, each.matrix, {**later, **each.before}).verdict
             verdicts.append((verdict, each.passage.line))
         except InputError as error:
             refused.append(Refused(key, each.passage.line, str(error)))

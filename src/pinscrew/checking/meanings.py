@@ -7,7 +7,7 @@ meaning, and none is guessed.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Final
 
@@ -33,7 +33,8 @@ _RATE: Final = re.compile(
 class Meanings:
     """The names that have a meaning for one robot's joints and lengths."""
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: Derivation, free: Iterable[str] = ()) -> None:
+        self._free = frozenset(free)
         self._variables = {variable.label: variable for variable in derivation.variables}
         self._numbered = list(derivation.variables)
         self._lengths = {_plain(str(symbol)): symbol for symbol in derivation.lengths}
@@ -46,7 +47,11 @@ class Meanings:
         """What a name stands for, or None if nothing is known of it."""
         if len(name) > LONGEST_NAME:
             return None
-        plain = _plain(name)
+        if name in self._free:
+            return scope.free(name)
+        return self._known(_plain(name), scope)
+
+    def _known(self, plain: str, scope: Scope) -> Element | None:
         length = self._length(plain)
         if length is not None:
             return scope.symbol(length)

@@ -31,7 +31,23 @@ _NAMES: Final[tuple[tuple[str, str], ...]] = (
     (r"twists|Xi|xis", "twists"),
     (r"e\^(?:hat|widehat)xi_?(\d+)\*?(?:theta|q|d)_?\1|exp_?(\d+)|e(\d+)", "exp{}"),
     (r"e\^\[S_?(\d+)\](?:theta|q|d)_?\1", "exp{}"),
+    (r"omega_?(\d+)|w_?(\d+)", "omega{}"),
+    (r"q_?(\d+)", "q{}"),
+    (r"(?:hat|widehat)xi_?(\d+)|xi_?hat_?(\d+)", "hat(xi{})"),
+    (r"(?:hat|widehat)omega_?(\d+)", "hat(omega{})"),
+    (r"xi_?(\d+)'|xi'_?(\d+)|xi\^prime_?(\d+)", "Js{}"),
+    (r"xi_?(\d+)\^dagger|xi\^dagger_?(\d+)", "Jb{}"),
+    (rf"(?:hat|widehat)p{_FRAMES}|p_?hat", "phat"),
+    (rf"dotp{_FRAMES}|p_?dot|dp", "pdot"),
+    (rf"Ad_?{_POSE}|Ad(?:_g|_T)?", "Ad"),
+    (rf"Ad_?{_POSE}\^-1|Ad_?inv", "Adinv"),
+    (r"J_?v", "v(Jh)"),
+    (r"J_?(?:omega|w)", "w(Jh)"),
+    (r"(?:hat|widehat)V(?:[\^_]s|s)|Vs_?hat", "Vshat"),
+    (r"z_?(\d+)", "z{}"),
 )
+_ONE: Final = re.compile(r"e\^(?:hat|widehat|\[)(?:xi|S)_?(\d+)\]?\*?(?:theta|q|d)_?\1")
+_HOME: Final = re.compile(r"(?:g|T)(?:_?(?:st|ST))?\(0\)|M")
 _KINDS: Final = {"s": "spatial", "b": "body", "h": "hybrid"}
 _PHRASES: Final[tuple[tuple[str, str], ...]] = (
     (r"spatial (?:manipulator )?jacobian", "Js"),
@@ -58,12 +74,27 @@ def quantity_named(name: str, joints: int) -> str | None:
         return None
     plain = _STYLE.sub("", name).replace("\\", "")
     plain = _ARGUMENT.sub("", plain)
+    numbers = [int(number) for number in _ONE.findall(plain)]
+    if len(numbers) > 1:
+        rest = _ONE.sub("", plain)
+        return _product(numbers, joints, home=bool(rest)) if not rest or _HOME.fullmatch(rest) else None
     for pattern, key in (*_NAMES, *_of_kinds()):
         found = re.fullmatch(pattern % {"n": joints} if "%(n)d" in pattern else pattern, plain)
         if found:
             number = next((group for group in found.groups() if group), "")
-            return None if number and not 1 <= int(number) <= joints else key.format(number)
+            first = 0 if key.startswith("z") else 1
+            return None if number and not first <= int(number) < first + joints else key.format(number)
     return None
+
+
+def _product(numbers: list[int], joints: int, *, home: bool) -> str | None:
+    """The key of a product of exponentials in order, with or without the home pose."""
+    first, last = numbers[0], numbers[-1]
+    if numbers != list(range(first, last + 1)) or not 1 <= first < last <= joints:
+        return None
+    if home:
+        return None if last < joints else "T" if first == 1 else f"tail{first}"
+    return f"prod{last}" if first == 1 else None
 
 
 def _of_kinds() -> Iterator[tuple[str, str]]:

@@ -8,7 +8,7 @@ has to be told from others. Quotients are kept as two elements, and compared cro
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
@@ -52,14 +52,15 @@ class Scope:
 
     Args:
         derivation: the closed forms.
+        free: letters of an answer that the robot does not have.
     """
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: Derivation, free: Iterable[str] = ()) -> None:
         chain = derivation.chain
         self.scale = 2
         values = [s for variable in derivation.variables for s in (variable.symbol, variable.rate)]
         roots = [int(s.args[0]) for s in chain.algebra.ring.symbols if s.is_Pow]
-        known = (*derivation.lengths, *values)
+        known = (*derivation.lengths, *values, *(sp.Symbol(f"free {name}", real=True) for name in free))
         self.algebra = Algebra(chain.algebra.angles, known, sorted({2, 3, *roots}), exact=derivation.exact)
         self._angles = {angle for group in self.algebra.angles for angle in group}
         self._left = MOST_PRODUCTS
@@ -68,6 +69,10 @@ class Scope:
     def symbol(self, symbol: sp.Symbol) -> Element:
         """A symbol as itself."""
         return self.algebra.constant(symbol)
+
+    def free(self, name: str) -> Element:
+        """A letter that the robot does not have, as itself."""
+        return self.symbol(sp.Symbol(f"free {name}", real=True))
 
     def turn(self, factors: Mapping[sp.Symbol, Fraction], constant: Fraction = Fraction(0)) -> tuple[Element, Element]:
         """Cosine and sine of a sum of angles times factors, and of a multiple of π.
@@ -91,7 +96,9 @@ class Scope:
         return cosine * c - sine * s, sine * c + cosine * s
 
     def adopt(self, element: Element) -> Element:
-        """An element of the derivation's algebra in this one."""
+        """An element of the derivation's algebra, or of this one, in this one."""
+        if element.algebra is self.algebra:
+            return element
         found = self.algebra.constant(0)
         groups = element.algebra.angles
         for key, poly in element.terms.items():

@@ -3,68 +3,100 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Final, TypeAlias
 
+from pinscrew.checking.alternatives import alternatives
 from pinscrew.checking.quantities import right_form
 from pinscrew.checking.scope import Quotient, Scope
+from pinscrew.derivation.chain import Elements
 from pinscrew.derivation.derivation import Derivation
 
-__all__ = ["slips"]
+__all__ = ["Asked", "slips"]
 
 Values: TypeAlias = list[list[Quotient]]
 Explain: TypeAlias = Callable[[int, int], str]
 """What is wrong with the entry of a row and column, from 0, in words; or ``""``."""
 
 _OTHERS: Final = {
-    "Js": ("Jb", "Jh"),
-    "Jb": ("Js", "Jh"),
-    "Jh": ("Js", "Jb"),
+    "Js": ("Jb", "Jh", "twists"),
+    "Jb": ("Js", "Jh", "twists"),
+    "Jh": ("Js", "Jb", "twists"),
     "Vs": ("Vb", "Vh"),
     "Vb": ("Vs", "Vh"),
     "Vh": ("Vs", "Vb"),
+    "Vshat": ("Vbhat",),
+    "Vbhat": ("Vshat",),
+    "Ad": ("Adinv",),
+    "Adinv": ("Ad",),
+    "pdot": ("v(Vs)", "v(Vb)"),
     "T": ("Tinv", "M"),
     "Tinv": ("T",),
 }
 _SWAPPED: Final = (3, 4, 5, 0, 1, 2)
 
 
-def slips(
-    derivation: Derivation, scope: Scope, key: str, given: Values, right: Values, explain: Explain
-) -> tuple[str, ...]:
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What was asked for.
+
+    Attributes:
+        derivation: the closed forms.
+        key: the quantity.
+        scope: the algebra of the values.
+    """
+
+    derivation: Derivation
+    key: str
+    scope: Scope
+
+    def adopt(self, elements: Elements) -> Values:
+        """What a matrix of elements is worth where answers are compared."""
+        return [[Quotient(self.scope.adopt(element), self.scope.one) for element in row] for row in elements]
+
+
+def slips(question: Asked, given: Values, right: Values, explain: Explain) -> tuple[str, ...]:
     """In words, the slip that explains the whole answer; else one change in each entry that is wrong.
 
     Args:
-        derivation: the closed forms.
-        scope: the algebra of the values.
-        key: the quantity.
+        question: what was asked for.
         given: the values of the answer.
         right: the right ones, of the same shape.
         explain: finds the one change of an entry.
     """
-    for words, hypothesis in _wholes(derivation, scope, key, right):
+    for words, hypothesis in _wholes(question, right):
         if hypothesis() == given:
             return (words,)
-    found, wrong = [], 0
-    for i, (row, due) in enumerate(zip(given, right, strict=True), 1):
-        for j, (mine, theirs) in enumerate(zip(row, due, strict=True), 1):
-            if mine == theirs:
-                continue
-            wrong += 1
-            if mine == _negated(theirs):
-                found.append(f"the sign of entry ({i}, {j})")
-            elif words := explain(i - 1, j - 1):
-                found.append(f"entry ({i}, {j}): {words}")
-    return tuple(found) if len(found) == wrong else ()
+    places = [(i, j) for i, row in enumerate(given) for j, x in enumerate(row) if x != right[i][j]]
+    of_one_joint = question.key.startswith(("xi", "exp"))
+    found = _entries(given, right, places, explain) if len(places) == 1 and not of_one_joint else ()
+    if found:
+        return found
+    for words, elements in alternatives(question.derivation, question.key, question.scope):
+        if question.adopt(elements()) == given:
+            return (words,)
+    return _entries(given, right, places, explain)
 
 
-def _wholes(
-    derivation: Derivation, scope: Scope, key: str, right: Values
-) -> Iterator[tuple[str, Callable[[], Values]]]:
-    rows, columns = range(len(right)), range(len(right[0]))
+def _entries(given: Values, right: Values, places: Sequence[tuple[int, int]], explain: Explain) -> tuple[str, ...]:
+    """What is wrong with each of the entries, or nothing where one can't be explained."""
+    found = []
+    for i, j in places:
+        if given[i][j] == _negated(right[i][j]):
+            found.append(f"the sign of entry ({i + 1}, {j + 1})")
+        elif words := explain(i, j):
+            found.append(f"entry ({i + 1}, {j + 1}): {words}")
+        else:
+            return ()
+    return tuple(found)
+
+
+def _wholes(question: Asked, right: Values) -> Iterator[tuple[str, Callable[[], Values]]]:
+    rows, columns, key = range(len(right)), range(len(right[0])), question.key
     yield f"every sign: this is -{key}", partial(_signs, right, rows, columns)
     for other in _OTHERS.get(key, ()):
-        yield f"this is {other}, asked was {key}", partial(_other, derivation, scope, other)
+        yield f"this is {other}, asked was {key}", partial(_other, question, other)
     if len(right) == 6:
         yield "the rows are (ω, v), asked was (v, ω)", partial(_picked, right, _SWAPPED)
         yield "v is negated: q × ω is right, not ω × q", partial(_signs, right, range(3), columns)
@@ -96,5 +128,5 @@ def _negated(value: Quotient) -> Quotient:
     return Quotient(-value.over, value.under)
 
 
-def _other(derivation: Derivation, scope: Scope, key: str) -> Values:
-    return [[Quotient(scope.adopt(element), scope.one) for element in row] for row in right_form(derivation, key)]
+def _other(question: Asked, key: str) -> Values:
+    return question.adopt(right_form(question.derivation, key))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 import click
 
@@ -16,12 +16,15 @@ if TYPE_CHECKING:
 
 __all__ = ["command", "option_words"]
 
+_Frames: TypeAlias = tuple[str | None, str | None]
+"""The tip, and frame 0."""
 _STATUS: Final = {True: 0, False: 1, None: 2}
 
 
 @click.command(name="check", short_help="Say whether answers are right, and where not.")
 @arguments.robot_argument(then=" [FILE|FOLDER]")
 @arguments.tip_option
+@click.option("--from", "--reference", "reference", metavar="FRAME", help="Another frame 0; by default the base.")
 @click.option("--quantity", metavar="Q", help="What was asked for: M, xi1, T, Js, Jb, Jh, Vb, …")
 @click.option("--text", help="The answer: a matrix in LaTeX, Python or MATLAB.")
 @click.option("--format", "form", type=click.Choice(["text", "markdown", "html"]), default="text", help="How to print.")
@@ -31,6 +34,7 @@ _STATUS: Final = {True: 0, False: 1, None: 2}
 def command(
     words: tuple[str, ...],
     tip: str | None,
+    reference: str | None,
     quantity: str | None,
     text: str | None,
     form: str,
@@ -52,11 +56,11 @@ def command(
     """
     named = arguments.robots(words)
     if text is None and len(named) == 2 and Path(named[1].source).is_dir():
-        _class(words[:-1], Path(named[1].source), tip, csv_file, jobs, as_json=as_json)
+        _class(words[:-1], Path(named[1].source), (tip, reference), csv_file, jobs, as_json=as_json)
         return
     if csv_file is not None or jobs is not None:
         raise click.UsageError("--csv and --jobs are for a folder")
-    verdict = _verdict(named, tip, quantity, text)
+    verdict = _verdict(named, (tip, reference), quantity, text)
     if as_json:
         output.print_json(verdict.data())
     elif form == "text":
@@ -67,9 +71,11 @@ def command(
 
 
 def _verdict(
-    named: list[arguments.Named], tip: str | None, quantity: str | None, text: str | None
+    named: list[arguments.Named], frames: _Frames, quantity: str | None, text: str | None
 ) -> AnswerVerdict | AnswerSheet:
     import pinscrew as ps
+
+    tip, reference = frames
 
     if (quantity is None) != (text is None):
         raise click.UsageError("--quantity and --text go together")
@@ -78,19 +84,21 @@ def _verdict(
         raise click.UsageError(f"expected {wanted}, but got {', '.join(each.source for each in named)}")
     robot = named[0].load()
     if quantity is not None and text is not None:
-        return ps.check(robot, quantity, text, tip=tip)
-    return ps.check_file(robot, Path(named[1].source), tip=tip)
+        return ps.check(robot, quantity, text, tip=tip, reference=reference)
+    return ps.check_file(robot, Path(named[1].source), tip=tip, reference=reference)
 
 
 def _class(
-    words: tuple[str, ...], folder: Path, tip: str | None, csv_file: Path | None, jobs: int | None, *, as_json: bool
+    words: tuple[str, ...], folder: Path, frames: _Frames, csv_file: Path | None, jobs: int | None, *, as_json: bool
 ) -> None:
     from pinscrew.checking.run import checkable
     from pinscrew.checking.submissions import check_folder, submissions_csv
 
     robot = arguments.robot(words)
-    name = checkable(robot.load(), tip).robot.name  # what is wrong with the robot is said once, and before the work
-    given = [*option_words(), *(("--tip", tip) if tip is not None else ())]
+    name = checkable(robot.load(), *frames).robot.name  # what is wrong with the robot is said once, and before the work
+    given = option_words()
+    for option, frame in zip(("--tip", "--from"), frames, strict=True):
+        given += [option, frame] if frame is not None else []
     found = check_folder([*given, *words], folder, jobs=jobs)
     if csv_file is not None:
         output.write_file(csv_file, submissions_csv(found))

@@ -1,0 +1,212 @@
+"""One matrix against its right form: its entries read, valued, compared, and what is wrong explained."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import combinations_with_replacement
+from typing import Final
+
+from pinscrew.checking.edits import edits, symbol_names
+from pinscrew.checking.meanings import Meanings, given
+from pinscrew.checking.quantities import right_form
+from pinscrew.checking.scope import NoValueError, Quotient, Scope
+from pinscrew.checking.slips import Asked, slips
+from pinscrew.checking.texts import Written
+from pinscrew.checking.verdict import AnswerVerdict
+from pinscrew.derivation.chain import Elements
+from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.trig import Element
+from pinscrew.ground.errors import InputError
+from pinscrew.mathtext import Node, Operation, read_latex, read_plain, symbols
+
+__all__ = ["Graded", "graded", "read_cell"]
+
+Place = tuple[int, int]
+MOST_FACTORS: Final = 3
+"""Of a term that is looked for where one is missing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Graded:
+    """A verdict, and what the answer is worth.
+
+    Attributes:
+        verdict: what is said.
+        scope: the algebra of the values.
+        values: the value of each entry by row and column, from 1; those that can't be read are not there.
+    """
+
+    verdict: AnswerVerdict
+    scope: Scope
+    values: Mapping[Place, Quotient]
+
+
+def _shaped(matrix: Written, shape: tuple[int, ...], key: str) -> Written:
+    """The matrix in the shape of the right one, where only a vector's direction differs."""
+    rows = matrix.rows
+    if matrix.vector and shape[1] == 1:
+        rows = tuple((cell,) for row in rows for cell in row)
+    elif matrix.vector and shape[0] == 1:
+        rows = (tuple(cell for row in rows for cell in row),)
+    if (len(rows), len(rows[0])) != shape:
+        what = f"{key} has {shape[0]} rows and {shape[1]} columns, the answer {len(rows)} and {len(rows[0])}"
+        raise InputError("shape", what)
+    return Written(rows, matrix.language, matrix.factor)
+
+
+def read_cell(cell: str, matrix: Written) -> Node:
+    """The formula of a cell, with the factor that stands before its matrix.
+
+    Raises:
+        InputError: it can't be read.
+    """
+    if matrix.language == "latex":
+        node = read_latex(cell)
+        return Operation("multiply", (read_latex(matrix.factor), node)) if matrix.factor not in ("", "+") else node
+    return read_plain(cell, _arrays(cell), side_by_side=matrix.language == "plain")
+
+
+def _arrays(cell: str) -> set[str]:
+    """Names that stand with an index in a cell."""
+    return {name for name in ("q", "theta", "th", "qd", "dq") if f"{name}[" in cell or f"{name}(" in cell}
+
+
+def graded(
+    derivation: Derivation, key: str, matrix: Written, defined: Mapping[str, Node], free: Iterable[str] = ()
+) -> Graded:
+    """The verdict on a matrix.
+
+    Args:
+        derivation: the closed forms; see `checkable`.
+        key: the quantity; see `quantity_key`.
+        matrix: the answer as it is written.
+        defined: formulas that it gives names to, in order.
+        free: names that are letters of their own, and mean nothing that the robot has.
+
+    Raises:
+        InputError: it has another shape than the quantity.
+    """
+    scope, meanings = Scope(derivation, free), Meanings(derivation, free)
+    right = right_form(derivation, key)
+    matrix = _shaped(matrix, right.shape, key)
+    question = Asked(derivation, key, scope)
+    due = question.adopt(right)
+    nodes: dict[tuple[int, int], Node] = {}
+    unread: dict[tuple[int, int], str] = {}
+    for i, row in enumerate(matrix.rows, 1):
+        for j, cell in enumerate(row, 1):
+            try:
+                nodes[i, j] = read_cell("-(" + cell + ")" if matrix.factor == "-" else cell, _unsigned(matrix))
+            except InputError as error:
+                unread[i, j] = str(error)
+    names = {name for node in (*nodes.values(), *defined.values()) for name in symbols(node)}
+    known = given(names, meanings, scope, defined)
+    values: dict[tuple[int, int], Quotient] = {}
+    for place, node in nodes.items():
+        try:
+            values[place] = scope.value(node, known)
+        except NoValueError as error:
+            unread[place] = str(error)
+    if key.startswith("q") and not unread:
+        due = _nearest(right_form(derivation, f"omega{key[1:]}"), due, values, scope)
+    wrong = tuple(place for place, value in values.items() if value != due[place[0] - 1][place[1] - 1])
+    found: tuple[str, ...] = ()
+    if wrong and not unread:
+        both = range(1, right.shape[0] + 1), range(1, right.shape[1] + 1)
+        explainer = _Explainer(scope, symbol_names(derivation), due, meanings, known)
+
+        def explain(i: int, j: int) -> str:
+            return explainer.words(nodes[i + 1, j + 1], values[i + 1, j + 1], due[i][j])
+
+        found = slips(question, [[values[i, j] for j in both[1]] for i in both[0]], due, explain)
+    expected = derivation.write(right)
+    verdict = AnswerVerdict(
+        robot=derivation.robot.name,
+        quantity=key,
+        entries=wrong,
+        unread=tuple(sorted(unread.items())),
+        slips=found,
+        given=matrix.rows,
+        expected=tuple(tuple(str(x) for x in row) for row in expected.tolist()),
+    )
+    return Graded(verdict, scope, values)
+
+
+def _nearest(
+    direction: Elements, due: list[list[Quotient]], values: Mapping[Place, Quotient], scope: Scope
+) -> list[list[Quotient]]:
+    """The point of an axis that is nearest to the one that is given: q + ω ωᵀ(x - q), for any point is right."""
+    if any(value.under is not scope.one for value in values.values()):
+        return due
+    w = [scope.adopt(element) for element in direction[:, 0]]
+    away = [values[i, 1].over - due[i - 1][0].over for i in (1, 2, 3)]
+    along = w[0] * away[0] + w[1] * away[1] + w[2] * away[2]
+    return [[Quotient(row[0].over + x * along, scope.one)] for x, row in zip(w, due, strict=True)]
+
+
+class _Explainer:
+    """Finds the one change that makes a wrong entry right."""
+
+    def __init__(
+        self,
+        scope: Scope,
+        names: tuple[str, ...],
+        due: list[list[Quotient]],
+        meanings: Meanings,
+        known: Mapping[str, Element],
+    ) -> None:
+        self._scope, self._names, self._due = scope, names, due
+        self._known = {**given(set(names) - set(known), meanings, scope, {}), **known}
+        self._terms: dict[Element, str] | None = None
+
+    def words(self, node: Node, value: Quotient, due: Quotient) -> str:
+        """What is wrong with an entry, in words; or ``""``.
+
+        Args:
+            node: its formula.
+            value: what it is worth.
+            due: what is right.
+        """
+        if not value.over:
+            return "0 stands there: it is left out"
+        for words, changed in edits(node, self._names):
+            try:
+                if self._scope.value(changed, self._known) == due:
+                    return words
+            except NoValueError:
+                continue
+        return self._copied(value) or self._term(value, due)
+
+    def _copied(self, value: Quotient) -> str:
+        """Which other entry's right form stands there."""
+        for i, row in enumerate(self._due, 1):
+            for j, other in enumerate(row, 1):
+                if other.over and value == other:
+                    return f"what is due at ({i}, {j}) stands here"
+                if other.over and value == Quotient(-other.over, other.under):
+                    return f"what is due at ({i}, {j}), negated, stands here"
+        return ""
+
+    def _term(self, value: Quotient, due: Quotient) -> str:
+        """A term of a few factors that is missing, or too many."""
+        if value.under is not self._scope.one or due.under is not self._scope.one:
+            return ""
+        if self._terms is None:
+            self._terms = {}
+            for count in range(1, MOST_FACTORS + 1):
+                for chosen in combinations_with_replacement(self._names, count):
+                    product = self._scope.one
+                    for name in chosen:
+                        product = product * self._known[name]
+                    self._terms.setdefault(product, "*".join(chosen))
+        difference = due.over - value.over
+        if difference in self._terms:
+            return f"a term {self._terms[difference]} is missing"
+        if -difference in self._terms:
+            return f"a term -{self._terms[-difference]} is missing"
+        return ""
+
+
+def _unsigned(matrix: Written) -> Written:
+    return Written(matrix.rows, matrix.language) if matrix.factor == "-" else matrix
