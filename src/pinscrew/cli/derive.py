@@ -51,7 +51,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     multiple=True,
     metavar="PART",
     help="Only these sections, by letter (d), key (pose) or name (T, Js, Jb, Jh, Ad): i,l or repeated. "
-    "Part n, singularities, is shown only so.",
+    "Parts n to r (singularities, screws, spatial-velocity, general-column, geometric) are shown only so.",
 )
 @click.option(
     "--detail",

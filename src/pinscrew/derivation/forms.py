@@ -154,6 +154,11 @@ class ClosedForms:
         return self._in_rates(self.write(self.normal.body_hat))
 
     @cached_property
+    def spatial_hat(self) -> sp.ImmutableMatrix:
+        """V̂^s = ġg⁻¹, shape (4, 4)."""
+        return self._in_rates(self.write(self.normal.spatial_hat))
+
+    @cached_property
     def adjoint(self) -> sp.ImmutableMatrix:
         """Ad of g, shape (6, 6)."""
         return self.write(normal_forms.adjoint(self.normal.pose))

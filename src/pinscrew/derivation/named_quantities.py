@@ -6,22 +6,19 @@ It is read from the text alone: nothing here asks how it was written.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Final, TypeAlias
 
 import numpy as np
 
+from pinscrew.derivation.names import Names, NotUnderstoodError
 from pinscrew.derivation.step_quantities import step_quantity
-from pinscrew.derivation.truth import Truth
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import FloatArray
 from pinscrew.lie import se3
-from pinscrew.mathtext import Symbol, read_latex
 from pinscrew.mathtext.equations import Grid, Side
 from pinscrew.mathtext.tokens import CLOSING
 
-__all__ = ["Names", "NotUnderstoodError"]
+__all__ = ["side_value"]
 
 Token: TypeAlias = str | Grid
 
@@ -30,70 +27,23 @@ _SIZES: Final = {r"\left", r"\right", r"\,", r"\;", r"\ "}
 _KINDS: Final[dict[str, str]] = {"s": "spatial", "b": "body", "h": "hybrid"}
 _TURN: Final = re.compile(r"(?:\\hat\{\\omega\}_\{?(\d+)\}?|\[\\omega_\{?(\d+)\}?\])(.+)")
 _POWER: Final = re.compile(r"(?:\\hat\{\\xi\}_\{?(\d+)\}?|\[\\mathcal\{S\}_\{?(\d+)\}?\])(.+)")
-_SWAPPED: Final = [3, 4, 5, 0, 1, 2]
 
 
-class NotUnderstoodError(Exception):
-    """A side of an equation has something in it that has no value here; it is passed over."""
+def side_value(names: Names, side: Side) -> tuple[FloatArray, list[FloatArray]]:
+    """The value of a side of an equation, shape (N, rows, columns), and those of the factors of its terms.
 
-
-@dataclass(frozen=True, slots=True)
-class Names:
-    """What the names in the formulas of one report stand for.
-
-    Attributes:
-        truth: an engine's answers, with twists (v, ω).
-        angular_first: whether the book has (ω, v).
-        joints: the names of the values of the joints that move the frame, without underscores.
-        rates: of the coordinates, shape (N, m).
-        grid: the value of a matrix of entries, or None where it is a general form.
-        scalar: the value (N,) of a symbol, such as a joint's rate; raises `NotUnderstoodError`.
-        points: points q_i of axes that were read before.
+    Raises:
+        NotUnderstoodError: something in it is no such name.
     """
-
-    truth: Truth
-    angular_first: bool
-    joints: tuple[str, ...]
-    rates: FloatArray
-    grid: Callable[[Grid], FloatArray | None]
-    scalar: Callable[[str], FloatArray]
-    points: Mapping[int, FloatArray]
-
-    def value(self, side: Side) -> tuple[FloatArray, list[FloatArray]]:
-        """The value of a side of an equation, shape (N, rows, columns), and those of the factors of its terms.
-
-        Raises:
-            NotUnderstoodError: something in it is no such name.
-        """
-        tokens: list[Token] = []
-        for piece in side:
-            if isinstance(piece, Grid):
-                tokens.append(piece)
-            else:
-                tokens += [token for token in _TOKEN.findall(piece) if token not in _SIZES]
-        read = _Side(tokens, self)
-        value = read.whole()
-        return value, read.factors
-
-    def twist(self, matrix: FloatArray) -> FloatArray:
-        """Twists or a Jacobian with its rows in the book's order."""
-        return matrix[:, _SWAPPED] if self.angular_first else matrix
-
-    def adjoint(self, pose: FloatArray) -> FloatArray:
-        """Ad of a pose in the book's order."""
-        matrix = np.asarray(se3.adjoint(pose))
-        return matrix[:, _SWAPPED][:, :, _SWAPPED] if self.angular_first else matrix
-
-    def joint(self, symbol: str) -> int:
-        """The number of the joint whose value a symbol is."""
-        try:
-            node = read_latex(symbol)
-        except InputError:
-            raise NotUnderstoodError from None
-        name = node.name.replace("_", "") if isinstance(node, Symbol) else ""
-        if name not in self.joints:
-            raise NotUnderstoodError
-        return self.joints.index(name) + 1
+    tokens: list[Token] = []
+    for piece in side:
+        if isinstance(piece, Grid):
+            tokens.append(piece)
+        else:
+            tokens += [token for token in _TOKEN.findall(piece) if token not in _SIZES]
+    read = _Side(tokens, names)
+    value = read.whole()
+    return value, read.factors
 
 
 class _Side:
@@ -102,6 +52,7 @@ class _Side:
     def __init__(self, tokens: list[Token], names: Names) -> None:
         self._tokens, self._at, self._names = tokens, 0, names
         self.factors: list[FloatArray] = []
+        self._inside: list[FloatArray] = []  # factors within fractions
 
     def whole(self) -> FloatArray:
         found = self._sum()
@@ -126,13 +77,14 @@ class _Side:
         return total
 
     def _product(self) -> FloatArray:
+        self.factors = []
         found = self._factor()
-        self.factors = [found]
+        self._keep(found)
         while self._ahead() not in ("", "+", "-", ")", "]"):
             crossed = self._ahead() == r"\times"
             self._at += crossed
             factor = self._factor()
-            self.factors.append(factor)
+            self._keep(factor)
             if crossed and found.shape[1:] == factor.shape[1:] == (3, 1):
                 found = np.cross(found, factor, axis=1)
             elif not crossed and (1, 1) in (found.shape[1:], factor.shape[1:]):
@@ -142,6 +94,10 @@ class _Side:
             else:
                 found = found @ factor
         return found
+
+    def _keep(self, factor: FloatArray) -> None:
+        self.factors += self._inside or [factor]
+        self._inside = []
 
     def _group(self) -> list[Token]:
         """What is in braces, or the one token there."""
@@ -171,6 +127,14 @@ class _Side:
             return found
         if ahead == "(":
             return _Side(self._group(), self._names).whole()
+        if ahead == r"\|":
+            return self._norm()
+        if ahead == r"\frac" and self._ahead(2) != r"\partial":
+            self._at += 1
+            above, below = (_Side(self._group(), self._names) for _ in range(2))
+            found = above.whole() / below.whole()
+            self._inside += above.factors
+            return np.asarray(found)
         base = self._base()
         scripts = {"_": "", "^": ""}
         while self._ahead() in ("_", "^", "'"):
@@ -184,6 +148,17 @@ class _Side:
                 return self._adjoint(inner, scripts["^"])
             scripts[str(which)] += "".join(map(str, inner))
         return self._named(base, scripts["_"], scripts["^"])
+
+    def _norm(self) -> FloatArray:
+        """‖ω‖ or ‖ω‖²."""
+        end = self._tokens.index(r"\|", self._at + 1) if r"\|" in self._tokens[self._at + 1 :] else 0
+        inside = _Side(self._tokens[self._at + 1 : end], self._names).whole()
+        self._at = end + 1
+        power = 1
+        if self._ahead() == "^":
+            self._at += 1
+            power = int("".join(map(str, self._group())))
+        return np.asarray(np.linalg.norm(inside, axis=(1, 2), keepdims=True) ** power)
 
     def _base(self) -> str:
         ahead = str(self._ahead())
@@ -244,7 +219,7 @@ class _Side:
         truth, twist = self._names.truth, self._names.twist
         if base.startswith("["):
             return self._hat(_KINDS.get(base.removeprefix(r"[\mathcal{V}_").strip("{}]"), ""))
-        letter = sub + sup
+        letter = sup + sub if base == "J" and sub.isdecimal() else sub + sup
         kind = _KINDS.get(letter[:1], "")
         if not kind:
             return None

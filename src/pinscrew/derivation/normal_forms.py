@@ -93,6 +93,11 @@ class NormalForms:
         return self.inverse @ self.pose_rate
 
     @cached_property
+    def spatial_hat(self) -> Elements:
+        """V̂^s = ġg⁻¹, shape (4, 4); MLS eq. 2.53."""
+        return self.pose_rate @ self.inverse
+
+    @cached_property
     def spatial(self) -> Elements:
         """J^s: column i is ξ′ = Ad(e^{ξ̂1 θ1} … e^{ξ̂(i-1) θ(i-1)}) ξi, shape (6, n); MLS eq. 3.54."""
         return self._columns(

@@ -40,6 +40,7 @@ class Notation:
     body: str
     hybrid: str
     spatial_velocity: str
+    spatial_velocity_hat: str
     body_velocity: str
     body_velocity_hat: str
     hybrid_velocity: str
@@ -76,6 +77,7 @@ NOTATIONS: Final[dict[Convention, Notation]] = {
         body="J^{b}",
         hybrid="J^{h}",
         spatial_velocity="V^{s}",
+        spatial_velocity_hat=r"\hat{V}^{s}",
         body_velocity="V^{b}",
         body_velocity_hat=r"\hat{V}^{b}",
         hybrid_velocity="V^{h}",
@@ -89,6 +91,7 @@ NOTATIONS: Final[dict[Convention, Notation]] = {
             "body": "eq. 3.55",
             "spatial": "eq. 3.54",
             "velocity": "eq. 2.55",
+            "spatial-velocity": "eq. 2.53",
             "adjoint": "eq. 2.58",
         },
     ),
@@ -107,6 +110,7 @@ NOTATIONS: Final[dict[Convention, Notation]] = {
         body="J_{b}",
         hybrid="J_{h}",
         spatial_velocity=r"\mathcal{V}_{s}",
+        spatial_velocity_hat=r"[\mathcal{V}_{s}]",
         body_velocity=r"\mathcal{V}_{b}",
         body_velocity_hat=r"[\mathcal{V}_{b}]",
         hybrid_velocity=r"\mathcal{V}_{h}",
@@ -120,6 +124,7 @@ NOTATIONS: Final[dict[Convention, Notation]] = {
             "body": "§5.1.2",
             "spatial": "§5.1.1",
             "velocity": "§3.3.2",
+            "spatial-velocity": "§3.3.2",
             "adjoint": "§3.3.2",
         },
     ),

@@ -24,6 +24,10 @@ PARTS: Final = {
     "spatial-jacobian": "l",
     "hybrid-jacobian": "m",
     "singularities": "n",
+    "screws": "o",
+    "spatial-velocity": "p",
+    "general-column": "q",
+    "geometric": "r",
 }
 """The keys of sections, and their letters."""
 
@@ -35,10 +39,11 @@ _NAMES: Final = {
     "Jh": "hybrid-jacobian",
     "Ad": "hybrid-jacobian",
     "Vb": "velocity-check",
+    "Vs": "spatial-velocity",
     "Vh": "hybrid-velocity",
 }
 """What people call a section by."""
-_ON_REQUEST: Final = {"singularities"}
+_ON_REQUEST: Final = {"singularities", "screws", "spatial-velocity", "general-column", "geometric"}
 _SMALL_ONLY: Final = {"rate", "inverse", "velocity-matrix", "velocity", "velocity-check", "hybrid-velocity"}
 
 

@@ -17,7 +17,8 @@ from typing import Final
 import numpy as np
 
 from pinscrew.derivation.forms import ClosedForms
-from pinscrew.derivation.named_quantities import Names, NotUnderstoodError
+from pinscrew.derivation.named_quantities import side_value
+from pinscrew.derivation.names import Names, NotUnderstoodError
 from pinscrew.derivation.truth import Drawn, Truth, draw
 from pinscrew.ground.errors import InputError, PinscrewError
 from pinscrew.ground.typing import FloatArray
@@ -87,7 +88,7 @@ def _failed(what: str, where: str) -> ReadBackError:
     return ReadBackError("read-back", what, where=where if len(where) < 200 else f"{where[:200]} …")
 
 
-_GENERAL: Final = re.compile(r"\\hat|\\omega|\\xi|\\mathcal|(?<![A-Za-z\\])[RIpqvJT](?![A-Za-z])")
+_GENERAL: Final = re.compile(r"\\hat|\\omega|\\xi|\\mathcal|(?<![A-Za-z\\])[RIpqvJThzo](?![A-Za-z])")
 """Names of matrices and vectors in a general form such as (R p; 0 1)."""
 _SHORT: Final = re.compile(r"([cs])_(.+)")
 
@@ -145,12 +146,12 @@ class _Reader:
             values = []
             for side in equation:
                 try:
-                    values.append(names.value(side))
+                    values.append(side_value(names, side))
                     named = named or not any(isinstance(piece, Grid) for piece in side)
                 except NotUnderstoodError:
                     continue
-            for value, _ in values[1:]:
-                self._same(values[0][0], value, where)
+            for other, _ in values[1:]:
+                self._same(values[0][0], other, where)
             # Factor by factor too: an entry that a zero multiplies would not be seen in the product.
             products = [factors for _, factors in values if len(factors) > 1]
             for a, b in pairwise(products):
@@ -168,7 +169,7 @@ class _Reader:
     def _point(self, i: int, equation: Equation, where: str) -> None:
         """A point of an axis, which is any: -ω × q is v."""
         for names in self._names:
-            q, xi = names.value(equation[1])[0], names.truth.twist(i)
+            q, xi = side_value(names, equation[1])[0], names.truth.twist(i)
             self._same(np.cross(q, xi[:, 3:], axis=1), xi[:, :3], where)
             self._points[i] = q
         self.matrices += 1

@@ -1,18 +1,22 @@
 """The sections of a report: each with the formula in general, the numbers put in, and the result.
 
-Letters (a) to (k) are those of the coursework that is the model of all this; (l) to (n) go on from there.
+Letters (a) to (k) are those of the coursework that is the model of all this; (l) to (r) go on from there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import partial
 
 import sympy as sp
 
 from pinscrew.derivation import steps
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, named
 from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.geometric import geometric
 from pinscrew.derivation.parts import PARTS, wanted
+from pinscrew.derivation.screw_section import screws
+from pinscrew.derivation.spatial_sections import general_column, spatial_velocity
 from pinscrew.derivation.writer import Detail, Writer
 
 __all__ = ["sections"]
@@ -36,6 +40,10 @@ def sections(derivation: Derivation, parts: Iterable[str] = (), detail: Detail =
         "spatial-jacobian": ("Spatial Jacobian, column by column", writer.spatial_jacobian),
         "hybrid-jacobian": ("Hybrid Jacobian and the adjoint", writer.hybrid_jacobian),
         "singularities": ("Manipulability and singular configurations", writer.singularities),
+        "screws": ("Pitch, axis and magnitude of each twist", partial(screws, writer)),
+        "spatial-velocity": ("Spatial velocity", partial(spatial_velocity, writer)),
+        "general-column": ("Why the columns of the spatial Jacobian are these", partial(general_column, writer)),
+        "geometric": ("Hybrid Jacobian by the geometric method", partial(geometric, writer)),
     }
     listed = []
     for key in wanted(parts, large=derivation.large):
@@ -130,10 +138,10 @@ class _Sections(Writer):
         d, n = self.d, self.n
         yield Paragraph(f"The pose is the product of the exponentials and the home pose ({self.cite('pose')}):")
         yield Formula((n.pose, " ".join((*map(self.exponential, self.numbers), n.home))))
-        for i, partial in enumerate(d.partial_products, 1):
+        for i, product in enumerate(d.partial_products, 1):
             if i > 1 and self.small:
                 so_far = " ".join(self.exponential(k) for k in range(1, i + 1))
-                yield from self.result(so_far, matrix=partial, name="P")
+                yield from self.result(so_far, matrix=product, name="P")
         if self.small and d.screws and d.home != sp.eye(4) and not self.set.is_wide(d.partial_products[-1]):
             yield Formula((n.pose, f"{self.set.matrix(d.partial_products[-1])} {self.set.matrix(d.home)}"))
 

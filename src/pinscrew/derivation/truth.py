@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
@@ -73,11 +73,11 @@ class Truth:
         self.name = engine.__name__
         self.joints = len(d.chain.joints)
 
-    def _ask(self, robot: Robot, named: Mapping[str, FloatArray], count: int) -> Answers:
+    def _ask(self, robot: Robot, named: Mapping[str, FloatArray], count: int, frames: Sequence[str] = ()) -> Answers:
         q, qd = np.zeros((count, robot.nq)) + robot.neutral, np.zeros((count, robot.nv))
         for name, values in named.items():
             q[:, robot.coordinate_names.index(name)] = values
-        found: Answers = self._engine(robot).answers(q, qd, [self._d.tip, self._d.reference])
+        found: Answers = self._engine(robot).answers(q, qd, frames or [self._d.tip, self._d.reference])
         return found
 
     @cached_property
@@ -125,6 +125,19 @@ class Truth:
         for k in range(self.joints, i - 1, -1):
             found = self.exponential(k) @ found
         return found
+
+    def link(self, label: str) -> FloatArray:
+        """The pose, in the first frame, of the link that a joint moves; ``"0"`` is that frame, ``"e"`` the tip."""
+        if label == "e":
+            return self.pose
+        if label == "0":
+            return np.broadcast_to(np.eye(4), self.pose.shape)
+        names = {joint.name: joint.child for joint in self._d.robot.description.joints}
+        child = names[self._d.chain.joints[int(label) - 1].variable.joint]
+        moving = [variable.joint for variable in self._d.coordinates]
+        at = dict(zip(moving, self._drawn.q.T, strict=True))
+        poses = self._ask(self._drawn.robot, at, len(self._drawn.q), [child, self._d.reference]).poses
+        return np.asarray(se3.inverse(poses[:, 1]) @ poses[:, 0])
 
     def twist(self, i: int) -> FloatArray:
         """ξi: column i of J^s where all joints are at zero."""

@@ -18,7 +18,7 @@ _SYMBOLS: Final = {
     r"\;": " ", r"\ ": " ", r"\quad": "   ", r"\qquad": "      ", r"\left": "", r"\right": "", r"\_": "_", "'": "′",
     r"\alpha": "α", r"\beta": "β", r"\gamma": "γ", r"\delta": "δ", r"\phi": "φ", r"\psi": "ψ", r"\lambda": "λ",
     r"\mu": "μ", r"\rho": "ρ", r"\displaystyle": "", r"\neq": "≠", r"\leq": "≤", r"\geq": "≥", r"\to": "→",
-    r"\wedge": "∧", r"\vee": "∨", r"\infty": "∞", r"\in": "∈", r"\mid": "|", r"\ldots": "…", r"\cdots": "⋯",
+    r"\wedge": "∧", r"\vee": "∨", r"\infty": "∞", r"\|": "‖", r"\in": "∈", r"\mid": "|", r"\ldots": "…", r"\cdots": "⋯",
     r"\ne": "≠", r"\le": "≤", r"\ge": "≥", r"\pm": "±", r"\top": "⊤", r"\{": "{", r"\}": "}", r"\&": "&",
 }  # fmt: skip
 _FRACTIONS: Final = {r"\frac", r"\tfrac", r"\dfrac"}

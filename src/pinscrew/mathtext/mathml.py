@@ -16,7 +16,7 @@ __all__ = ["formulas", "to_latex"]
 _LETTERS: Final = {
     "θ": r"\theta", "ω": r"\omega", "ξ": r"\xi", "π": r"\pi", "α": r"\alpha", "β": r"\beta", "γ": r"\gamma",
     "δ": r"\delta", "φ": r"\phi", "ψ": r"\psi", "λ": r"\lambda", "μ": r"\mu", "ρ": r"\rho", "∂": r"\partial",
-    "−": "-", "×": r"\times", "·": r"\cdot", "⋅": r"\cdot", "′": "'", "†": r"\dagger", "…": r"\dots",
+    "−": "-", "×": r"\times", "·": r"\cdot", "⋅": r"\cdot", "′": "'", "†": r"\dagger", "…": r"\dots", "‖": r"\|",
     "cos": r"\cos", "sin": r"\sin", "tan": r"\tan", "𝒮": r"\mathcal{S}", "𝒱": r"\mathcal{V}", "&": r"\&", "_": r"\_",
 }  # fmt: skip
 _ACCENTS: Final = {"ˆ": r"\hat", "^": r"\hat", "˙": r"\dot", "¨": r"\ddot"}
