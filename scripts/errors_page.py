@@ -10,6 +10,7 @@ import inspect
 import sys
 from pathlib import Path
 
+from generated import write_or_check
 from pinscrew.ground import error_codes, errors
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "errors.md"
@@ -64,16 +65,5 @@ def page() -> str:
     return "\n".join([*parts, table(error_codes.WARNINGS), ""])
 
 
-def main() -> int:
-    """Write the page, or tell whether it is up to date."""
-    if "--check" in sys.argv[1:]:
-        current = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
-        if current != page():
-            print(f"{PAGE} is not up to date: run python scripts/errors_page.py", file=sys.stderr)
-        return int(current != page())
-    PAGE.write_text(page(), encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_or_check(PAGE, page()))

@@ -234,7 +234,7 @@ def left_jacobian(xi: ArrayLike) -> FloatArray:
 def left_jacobian_inverse(xi: ArrayLike) -> FloatArray:
     """𝒥⁻¹ = [[J⁻¹, -J⁻¹QJ⁻¹], [0, J⁻¹]]; Barfoot §7.1. The corner is the derivative of J⁻¹(ω) along v.
 
-    𝒥 is singular at θ = 2π, 4π, …: near such an angle the relative error of J⁻¹ is about ε θ/|θ - 2πk|, and
+    𝒥 is singular at θ = 2π, 4π, …: near such an angle the relative error of J⁻¹ is about ε θ / abs(θ - 2πk), and
     that of the corner is twice that.
 
     Args:
@@ -245,7 +245,7 @@ def left_jacobian_inverse(xi: ArrayLike) -> FloatArray:
 
     Raises:
         InputError: if the last axis is not 6 long, or if θ is a non-zero multiple of 2π as far as a double
-            can tell: |θ - 2πk| ≤ 4 ε θ.
+            can tell: abs(θ - 2πk) ≤ 4 ε θ.
     """
     v, axis, angle = _split(checks.read(xi, (6,), "se3.left_jacobian_inverse", "xi"))
     checks.require_invertible(angle, "se3.left_jacobian_inverse", "xi")

@@ -223,7 +223,7 @@ def left_jacobian(omega: ArrayLike) -> FloatArray:
 def left_jacobian_inverse(omega: ArrayLike) -> FloatArray:
     """J⁻¹ = I - θ/2 û + (1 - (θ/2) cot(θ/2)) û²; Barfoot §7.1.
 
-    J is singular at θ = 2π, 4π, …: near such an angle the relative error is about ε θ/|θ - 2πk|.
+    J is singular at θ = 2π, 4π, …: near such an angle the relative error is about ε θ / abs(θ - 2πk).
 
     Args:
         omega: ω, shape ``(..., 3)``, rad.
@@ -233,7 +233,7 @@ def left_jacobian_inverse(omega: ArrayLike) -> FloatArray:
 
     Raises:
         InputError: if the last axis is not 3 long, or if θ is a non-zero multiple of 2π as far as a double
-            can tell: |θ - 2πk| ≤ 4 ε θ.
+            can tell: abs(θ - 2πk) ≤ 4 ε θ.
     """
     axis, angle = _series.axis_angle(checks.read(omega, (3,), "so3.left_jacobian_inverse", "omega"))
     checks.require_invertible(angle, "so3.left_jacobian_inverse", "omega")

@@ -54,7 +54,7 @@ def integrate(
     coursework        T(dx) (I + [δφ]×) A, dx = v δt, δφ = ω δt, hybrid       Euler
     euler             forward kinematics of the coordinates                   Euler: θ + θ̇(t) δt
     rk4               forward kinematics of the coordinates                   classical Runge–Kutta, order 4
-    exponential       exp(V̂ˢ δt) T, MLS eq. 2.36                             Euler
+    exponential       exp(V̂ˢ δt) T, MLS eq. 2.36                              Euler
     exponential-body  T exp(V̂ᵇ δt)                                            Euler
     ================  ======================================================  =================================
 
