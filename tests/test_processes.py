@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -17,9 +18,9 @@ from pathlib import Path
 import pytest
 
 from pinscrew.ground.children import program
-from pinscrew.ground.errors import InputError
+from pinscrew.ground.errors import InputError, ViewError
 from pinscrew.ground.processes import process_pool
-from pinscrew.view.png import BROWSERS
+from pinscrew.view.png import BROWSERS, picture
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/environ").exists(), reason="processes are counted in /proc")
 
@@ -285,6 +286,42 @@ def test_a_command_that_is_ended(name: str, number: int, mark: str, tmp_path: Pa
     assert process.returncode == (-number if number == signal.SIGKILL else 128 + number)
     if number != signal.SIGKILL:
         assert not list(tmp_path.glob("pinscrew-*"))
+
+
+def test_what_a_browser_leaves_when_it_is_stopped(mark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    browser, place = tmp_path / "bin" / "chromium", tmp_path / "place"
+    for folder in (browser.parent, place):
+        folder.mkdir()
+    browser.write_text(f'#!/bin/sh\ntouch "$TMPDIR/left"\ntouch {tmp_path}/came\nexec sleep 600\n')
+    browser.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{browser.parent}:{os.environ['PATH']}")
+    monkeypatch.setenv(MARK, mark)
+    monkeypatch.setattr(tempfile, "tempdir", str(place))
+    with pytest.raises(ViewError, match="did not end"):
+        picture("", seconds=0.5)
+    assert (tmp_path / "came").exists()
+    assert list(place.iterdir()) == []
+    assert until(lambda: not marked(mark))
+
+
+INTERRUPTED = """
+import runpy
+import sys
+
+class Ctrl:
+    def find_spec(self, name, *_):
+        if name == "pinscrew.cli.endings":
+            raise KeyboardInterrupt
+
+sys.meta_path.insert(0, Ctrl())
+runpy.run_module("pinscrew", run_name="__main__", alter_sys=True)
+"""
+
+
+def test_an_interrupt_while_modules_are_loaded(mark: str, tmp_path: Path) -> None:
+    with start(tmp_path / "script.py", mark, INTERRUPTED) as process:
+        _, said = process.communicate(timeout=30)
+    assert (process.returncode, said) == (130, "")
 
 
 def test_a_program(mark: str) -> None:

@@ -85,7 +85,8 @@ def picture(html: str, width: int = 1000, height: int = 750, *, seconds: float =
             f"--screenshot={out}",
             page.as_uri(),
         ]
-        words = _run(command, seconds)
+        # What it leaves in the place for such files when it is stopped goes with the folder.
+        words = _run(command, seconds, {**os.environ, "TMPDIR": name})
         if not out.is_file():
             last = next((line for line in reversed(words.splitlines()) if line.strip()), "it says nothing")
             raise ViewError("browser-failed", f"made no picture ({last.strip()})", where=browser)
@@ -96,9 +97,9 @@ def _is_root() -> bool:
     return hasattr(os, "geteuid") and os.geteuid() == 0
 
 
-def _run(command: list[str], seconds: float) -> str:
+def _run(command: list[str], seconds: float, environment: dict[str, str]) -> str:
     """Run a browser to its end and return what it said; it and its helpers are stopped in any case."""
-    with program(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+    with program(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment) as process:
         try:
             words, _ = process.communicate(timeout=seconds)
         except subprocess.TimeoutExpired:
