@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from pinscrew.checking.grading import graded
+from numpy.typing import ArrayLike
+
 from pinscrew.checking.meanings import Meanings
 from pinscrew.checking.names import quantity_in_heading, quantity_named
 from pinscrew.checking.passages import Passage, passages
-from pinscrew.checking.run import checkable, definitions, listed
+from pinscrew.checking.run import checkable, definitions, listed, verdict_on
 from pinscrew.checking.scope import Scope
 from pinscrew.checking.sheet import AnswerSheet, Refused
 from pinscrew.checking.texts import Assigned, Written, written
@@ -43,7 +44,12 @@ class _NamedMatrix:
 
 
 def check_file(
-    robot: RobotLike, path: str | Path, *, tip: str | None = None, reference: str | None = None
+    robot: RobotLike,
+    path: str | Path,
+    *,
+    q: ArrayLike | None = None,
+    tip: str | None = None,
+    reference: str | None = None,
 ) -> AnswerSheet:
     """Every quantity that a file of answers has, each held against its right form as `check` does.
 
@@ -54,6 +60,7 @@ def check_file(
     Args:
         robot: a robot, or a name or path that `load` takes.
         path: Markdown, LaTeX, Python, MATLAB, a notebook or JSON, by its suffix.
+        q: the configuration (nq,) at which the answers are in numbers; without it they are in symbols.
         tip: the frame; by default the robot's tip.
         reference: the frame 0 that the answers are in; by default the base.
 
@@ -83,7 +90,7 @@ def check_file(
         try:
             if each.matrix is None:
                 raise InputError("formula", each.reason)
-            verdict = graded(derivation, key, each.matrix, {**later, **each.before}).verdict
+            verdict = verdict_on(derivation, key, each.matrix, {**later, **each.before}, q)
             verdicts.append((verdict, each.passage.line))
         except InputError as error:
             refused.append(Refused(key, each.passage.line, str(error)))

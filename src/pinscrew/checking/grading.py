@@ -20,7 +20,7 @@ from pinscrew.derivation.trig import Element
 from pinscrew.ground.errors import InputError
 from pinscrew.mathtext import Node, Operation, read_latex, read_plain, symbols
 
-__all__ = ["Graded", "graded", "read_cell"]
+__all__ = ["Graded", "Place", "graded", "graded_entry", "read_cell", "read_cells", "shaped"]
 
 Place = tuple[int, int]
 MOST_FACTORS: Final = 3
@@ -42,8 +42,12 @@ class Graded:
     values: Mapping[Place, Quotient]
 
 
-def _shaped(matrix: Written, shape: tuple[int, ...], key: str) -> Written:
-    """The matrix in the shape of the right one, where only a vector's direction differs."""
+def shaped(matrix: Written, shape: tuple[int, ...], key: str) -> Written:
+    """The matrix in the shape of the right one, where only a vector's direction differs.
+
+    Raises:
+        InputError: it has another shape.
+    """
     rows = matrix.rows
     if matrix.vector and shape[1] == 1:
         rows = tuple((cell,) for row in rows for cell in row)
@@ -65,6 +69,19 @@ def read_cell(cell: str, matrix: Written) -> Node:
         node = read_latex(cell)
         return Operation("multiply", (read_latex(matrix.factor), node)) if matrix.factor not in ("", "+") else node
     return read_plain(cell, _arrays(cell), side_by_side=matrix.language == "plain")
+
+
+def read_cells(matrix: Written) -> tuple[dict[Place, Node], dict[Place, str]]:
+    """The formulas of a matrix by row and column, from 1; and the reasons of those that can't be read."""
+    nodes: dict[Place, Node] = {}
+    unread: dict[Place, str] = {}
+    for i, row in enumerate(matrix.rows, 1):
+        for j, cell in enumerate(row, 1):
+            try:
+                nodes[i, j] = read_cell("-(" + cell + ")" if matrix.factor == "-" else cell, _unsigned(matrix))
+            except InputError as error:
+                unread[i, j] = str(error)
+    return nodes, unread
 
 
 def _arrays(cell: str) -> set[str]:
@@ -89,17 +106,10 @@ def graded(
     """
     scope, meanings = Scope(derivation, free), Meanings(derivation, free)
     right = right_form(derivation, key)
-    matrix = _shaped(matrix, right.shape, key)
-    question = Asked(derivation, key, scope)
+    matrix = shaped(matrix, right.shape, key)
+    question = Asked(derivation, key, scope, lambda element: Quotient(scope.adopt(element), scope.one))
     due = question.adopt(right)
-    nodes: dict[tuple[int, int], Node] = {}
-    unread: dict[tuple[int, int], str] = {}
-    for i, row in enumerate(matrix.rows, 1):
-        for j, cell in enumerate(row, 1):
-            try:
-                nodes[i, j] = read_cell("-(" + cell + ")" if matrix.factor == "-" else cell, _unsigned(matrix))
-            except InputError as error:
-                unread[i, j] = str(error)
+    nodes, unread = read_cells(matrix)
     names = {name for node in (*nodes.values(), *defined.values()) for name in symbols(node)}
     known = given(names, meanings, scope, defined)
     values: dict[tuple[int, int], Quotient] = {}
@@ -131,6 +141,33 @@ def graded(
         expected=tuple(tuple(str(x) for x in row) for row in expected.tolist()),
     )
     return Graded(verdict, scope, values)
+
+
+def graded_entry(derivation: Derivation, node: Node, right: Node, free: Iterable[str] = ()) -> str | None:
+    """What is wrong with one entry for itself: words, ``""`` where no one change explains it; None if it is right.
+
+    Args:
+        derivation: the closed forms.
+        node: the entry.
+        right: the right one.
+        free: as for `graded`; those that stand in a sum of angles are angles.
+
+    Raises:
+        NoValueError: the right one has no value.
+    """
+    free = (*free, "?")
+    scope, meanings = Scope(derivation, free), Meanings(derivation, free)
+    known = given(set(symbols(node) | symbols(right)), meanings, scope, {})
+    due = scope.value(right, known)
+    try:
+        value = scope.value(node, known)
+    except NoValueError:  # √x² say: what is wrong may be this very part
+        value = Quotient(scope.free("?"), scope.one)
+    if value == due:
+        return None
+    if value == -due:
+        return "the sign"
+    return _Explainer(scope, symbol_names(derivation), [[due]], meanings, known).words(node, value, due)
 
 
 def _nearest(
@@ -184,7 +221,7 @@ class _Explainer:
             for j, other in enumerate(row, 1):
                 if other.over and value == other:
                     return f"what is due at ({i}, {j}) stands here"
-                if other.over and value == Quotient(-other.over, other.under):
+                if other.over and value == -other:
                     return f"what is due at ({i}, {j}), negated, stands here"
         return ""
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from pinscrew.checking.grading import graded, read_cell
+from pinscrew.checking.numeric import graded_at
 from pinscrew.checking.quantities import quantity_key
 from pinscrew.checking.texts import Assigned, Written, written
 from pinscrew.checking.verdict import AnswerVerdict
@@ -14,11 +19,17 @@ from pinscrew.ground.errors import InputError, UnsupportedError
 from pinscrew.mathtext import Node, Symbol, read_latex
 from pinscrew.robot.loading import RobotLike
 
-__all__ = ["check", "checkable", "definitions", "listed"]
+__all__ = ["check", "checkable", "definitions", "listed", "verdict_on"]
 
 
 def check(
-    robot: RobotLike, quantity: str, answer: Any, *, tip: str | None = None, reference: str | None = None
+    robot: RobotLike,
+    quantity: str,
+    answer: Any,
+    *,
+    q: ArrayLike | None = None,
+    tip: str | None = None,
+    reference: str | None = None,
 ) -> AnswerVerdict:
     """Whether an answer is right, and if not, where and why.
 
@@ -30,6 +41,8 @@ def check(
         quantity: what was asked for: ``"M"``, ``"xi1"``, ``"T"``, ``"Js"``, ``"Jb"``, ``"Jh"``, ``"Vb"``, …; twists
             and rows of Jacobians are (v, ω), in m and rad.
         answer: LaTeX, Python or MATLAB; or an array, a matrix of sympy's, a list of lists.
+        q: the configuration (nq,) at which the answer is in numbers; they may be rounded in the last of two or more
+            decimals. Without it the answer is in symbols, and exact.
         tip: the frame; by default the robot's tip.
         reference: the frame 0 that the answer is in; by default the base.
 
@@ -39,7 +52,17 @@ def check(
     """
     derivation = checkable(robot, tip, reference)
     matrix, defined = _answer(answer)
-    return graded(derivation, quantity_key(quantity, len(derivation.chain.joints)), matrix, defined).verdict
+    key = quantity_key(quantity, len(derivation.chain.joints))
+    return verdict_on(derivation, key, matrix, defined, q)
+
+
+def verdict_on(
+    derivation: Derivation, key: str, matrix: Written, defined: Mapping[str, Node], q: ArrayLike | None
+) -> AnswerVerdict:
+    """The verdict on a matrix, in symbols or, at a configuration, in numbers; see `graded` and `graded_at`."""
+    if q is None:
+        return graded(derivation, key, matrix, defined).verdict
+    return graded_at(derivation, key, matrix, defined, np.asarray(q, dtype=float))
 
 
 def checkable(robot: RobotLike, tip: str | None = None, reference: str | None = None) -> Derivation:

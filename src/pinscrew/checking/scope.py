@@ -43,6 +43,9 @@ class Quotient:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Quotient) and not self.over * other.under - other.over * self.under
 
+    def __neg__(self) -> Quotient:
+        return Quotient(-self.over, self.under)
+
     def __hash__(self) -> int:
         return 0  # equal quotients may be written in many ways
 
@@ -60,8 +63,12 @@ class Scope:
         self.scale = 2
         values = [s for variable in derivation.variables for s in (variable.symbol, variable.rate)]
         roots = [int(s.args[0]) for s in chain.algebra.ring.symbols if s.is_Pow]
-        known = (*derivation.lengths, *values, *(sp.Symbol(f"free {name}", real=True) for name in free))
-        self.algebra = Algebra(chain.algebra.angles, known, sorted({2, 3, *roots}), exact=derivation.exact)
+        letters = tuple(sp.Symbol(f"free {name}", real=True) for name in free)
+        known = (*derivation.lengths, *values, *letters)
+        # Within a group angles add, and so do they with letters; where these are no angles, they have no cosines.
+        first, *others = chain.algebra.angles or ((),)
+        groups = ((*first, *letters), *others) if letters else chain.algebra.angles
+        self.algebra = Algebra(groups, known, sorted({2, 3, *roots}), exact=derivation.exact)
         self._angles = {angle for group in self.algebra.angles for angle in group}
         self._left = MOST_PRODUCTS
         self.one = self.algebra.constant(1)

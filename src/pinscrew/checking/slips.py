@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from pinscrew.checking.alternatives import alternatives
 from pinscrew.checking.quantities import right_form
-from pinscrew.checking.scope import Quotient, Scope
+from pinscrew.checking.scope import Scope
 from pinscrew.derivation.chain import Elements
 from pinscrew.derivation.derivation import Derivation
+from pinscrew.derivation.trig import Element
 
 __all__ = ["Asked", "slips"]
 
-Values: TypeAlias = list[list[Quotient]]
+Values: TypeAlias = list[list[Any]]
+"""What can be compared and negated: quotients of elements, or numbers that are near enough."""
 Explain: TypeAlias = Callable[[int, int], str]
 """What is wrong with the entry of a row and column, from 0, in words; or ``""``."""
 
@@ -44,16 +46,18 @@ class Asked:
     Attributes:
         derivation: the closed forms.
         key: the quantity.
-        scope: the algebra of the values.
+        scope: where an angle can stand without its sine and cosine.
+        value: what an element is worth where answers are compared.
     """
 
     derivation: Derivation
     key: str
     scope: Scope
+    value: Callable[[Element], Any]
 
     def adopt(self, elements: Elements) -> Values:
         """What a matrix of elements is worth where answers are compared."""
-        return [[Quotient(self.scope.adopt(element), self.scope.one) for element in row] for row in elements]
+        return [[self.value(element) for element in row] for row in elements]
 
 
 def slips(question: Asked, given: Values, right: Values, explain: Explain) -> tuple[str, ...]:
@@ -83,7 +87,7 @@ def _entries(given: Values, right: Values, places: Sequence[tuple[int, int]], ex
     """What is wrong with each of the entries, or nothing where one can't be explained."""
     found = []
     for i, j in places:
-        if given[i][j] == _negated(right[i][j]):
+        if given[i][j] == -right[i][j]:
             found.append(f"the sign of entry ({i + 1}, {j + 1})")
         elif words := explain(i, j):
             found.append(f"entry ({i + 1}, {j + 1}): {words}")
@@ -111,9 +115,7 @@ def _wholes(question: Asked, right: Values) -> Iterator[tuple[str, Callable[[], 
 
 def _signs(right: Values, rows: range, columns: range) -> Values:
     """The right form with the signs in some rows and columns changed."""
-    return [
-        [_negated(x) if i in rows and j in columns else x for j, x in enumerate(row)] for i, row in enumerate(right)
-    ]
+    return [[-x if i in rows and j in columns else x for j, x in enumerate(row)] for i, row in enumerate(right)]
 
 
 def _picked(right: Values, order: Sequence[int]) -> Values:
@@ -122,10 +124,6 @@ def _picked(right: Values, order: Sequence[int]) -> Values:
 
 def _transposed(right: Values) -> Values:
     return [list(column) for column in zip(*right, strict=True)]
-
-
-def _negated(value: Quotient) -> Quotient:
-    return Quotient(-value.over, value.under)
 
 
 def _other(question: Asked, key: str) -> Values:

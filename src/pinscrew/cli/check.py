@@ -27,6 +27,8 @@ _STATUS: Final = {True: 0, False: 1, None: 2}
 @click.option("--from", "--reference", "reference", metavar="FRAME", help="Another frame 0; by default the base.")
 @click.option("--quantity", metavar="Q", help="What was asked for: M, xi1, T, Js, Jb, Jh, Vb, …")
 @click.option("--text", help="The answer: a matrix in LaTeX, Python or MATLAB.")
+@click.option("-q", "at", metavar="VALUES", help="Answers are in numbers at these joint values: 45deg,pi/4,0.1.")
+@click.option("--errata", is_flag=True, help="Check the printed mistakes of the robot's coursework instead.")
 @click.option("--format", "form", type=click.Choice(["text", "markdown", "html"]), default="text", help="How to print.")
 @click.option("--csv", "csv_file", type=output.FILE, help="Write a row for each file of FOLDER to this file.")
 @click.option("--jobs", type=click.IntRange(1), help="Files of FOLDER at once; by default as many as there are cores.")
@@ -37,6 +39,8 @@ def command(
     reference: str | None,
     quantity: str | None,
     text: str | None,
+    at: str | None,
+    errata: bool,
     form: str,
     csv_file: Path | None,
     jobs: int | None,
@@ -55,12 +59,15 @@ def command(
       pinscrew check scara homework --csv grades.csv
     """
     named = arguments.robots(words)
+    if errata:
+        _errata(named, form, as_json=as_json)
+        return
     if text is None and len(named) == 2 and Path(named[1].source).is_dir():
-        _class(words[:-1], Path(named[1].source), (tip, reference), csv_file, jobs, as_json=as_json)
+        _class(words[:-1], Path(named[1].source), (tip, reference), at, csv_file, jobs, as_json=as_json)
         return
     if csv_file is not None or jobs is not None:
         raise click.UsageError("--csv and --jobs are for a folder")
-    verdict = _verdict(named, (tip, reference), quantity, text)
+    verdict = _verdict(named, (tip, reference), quantity, text, at)
     if as_json:
         output.print_json(verdict.data())
     elif form == "text":
@@ -71,25 +78,32 @@ def command(
 
 
 def _verdict(
-    named: list[arguments.Named], frames: _Frames, quantity: str | None, text: str | None
+    named: list[arguments.Named], frames: _Frames, quantity: str | None, text: str | None, at: str | None
 ) -> AnswerVerdict | AnswerSheet:
     import pinscrew as ps
 
     tip, reference = frames
-
     if (quantity is None) != (text is None):
         raise click.UsageError("--quantity and --text go together")
     if len(named) != (2 if text is None else 1) or (named[-1].arguments and text is None):
         wanted = "a robot alone beside --text" if text is not None else "a robot and a file of answers"
         raise click.UsageError(f"expected {wanted}, but got {', '.join(each.source for each in named)}")
     robot = named[0].load()
+    q = None if at is None else arguments.configuration(robot, at)
     if quantity is not None and text is not None:
-        return ps.check(robot, quantity, text, tip=tip, reference=reference)
-    return ps.check_file(robot, Path(named[1].source), tip=tip, reference=reference)
+        return ps.check(robot, quantity, text, q=q, tip=tip, reference=reference)
+    return ps.check_file(robot, Path(named[1].source), q=q, tip=tip, reference=reference)
 
 
 def _class(
-    words: tuple[str, ...], folder: Path, frames: _Frames, csv_file: Path | None, jobs: int | None, *, as_json: bool
+    words: tuple[str, ...],
+    folder: Path,
+    frames: _Frames,
+    at: str | None,
+    csv_file: Path | None,
+    jobs: int | None,
+    *,
+    as_json: bool,
 ) -> None:
     from pinscrew.checking.run import checkable
     from pinscrew.checking.submissions import check_folder, submissions_csv
@@ -97,8 +111,8 @@ def _class(
     robot = arguments.robot(words)
     name = checkable(robot.load(), *frames).robot.name  # what is wrong with the robot is said once, and before the work
     given = option_words()
-    for option, frame in zip(("--tip", "--from"), frames, strict=True):
-        given += [option, frame] if frame is not None else []
+    for option, value in zip(("--tip", "--from", "-q"), (*frames, at), strict=True):
+        given += [option, value] if value is not None else []
     found = check_folder([*given, *words], folder, jobs=jobs)
     if csv_file is not None:
         output.write_file(csv_file, submissions_csv(found))
@@ -112,6 +126,21 @@ def _class(
         output.say(*map(str, found))
     wrong, unread = (sum(each.count(word) for each in found) for word in (False, None))
     sys.exit(1 if wrong else 2 if unread or not found or any(each.error for each in found) else 0)
+
+
+def _errata(named: list[arguments.Named], form: str, *, as_json: bool) -> None:
+    from pinscrew.checking.coursework import check_errata
+
+    if len(named) != 1 or form == "html":
+        raise click.UsageError("--errata takes a robot alone, and --format text or markdown")
+    found = check_errata(named[0].load().name)
+    if as_json:
+        output.print_json(found.data())
+    elif form == "markdown":
+        click.echo(found.to_markdown(), nl=False)
+    else:
+        output.say(*str(found).splitlines())
+    sys.exit(0 if found.located == len(found.found) else 1)
 
 
 def option_words() -> list[str]:
