@@ -121,10 +121,16 @@ def test_another_name_for_this_computer_is_refused(view: View) -> None:
 
 
 def test_a_page_of_another_view_is_refused(view: View) -> None:
-    for token in ("", "0123456789abcdef"):
+    for token in ("", "0123456789ABCDEF", "0123456789abcdef0"):
         page = Page(view, token=token)
         assert page.status == 404
         page.close()
+    page = Page(view, token=f"{0:016x}")
+    page.say('{"q": [1, 2, 0.3]}')
+    head = page.stream.read(2)
+    assert (head[0] & 15, page.stream.read(2)) == (8, (4001).to_bytes(2, "big")), "sent away, and told nothing"
+    page.close()
+    assert view.q.tolist() == [0.1, 0.2, 0.1]
 
 
 def test_pages_follow_each_other_within_reason(view: View) -> None:

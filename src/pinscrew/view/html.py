@@ -25,6 +25,8 @@ SCRIPTS: Final = (
     "stage",
     "numbers",
     "dialect",
+    "copy",
+    "address",
     "panel",
     "live",
     "main",

@@ -30,6 +30,8 @@ PATIENCE: Final = 5.0
 """Seconds after which a server that does not answer counts as dead."""
 BEAT: Final = 1.0
 """Seconds between words to the page, so that it knows that the server lives."""
+RESTARTED: Final = 4001
+"""Code by which a page is sent away that another server has served: it loads itself anew."""
 LONGEST: Final = 2**20
 """Bytes of the longest message from a page."""
 
@@ -181,12 +183,17 @@ class Server:
             def check_origin(self, origin: str) -> bool:
                 return self.request.host in names and origin.removeprefix("http://") in names
 
-            def open(self, *_: str) -> None:
+            def open(self, *given: str) -> None:
+                if given != (own.token,):
+                    self.close(RESTARTED)
+                    return
                 greeting = json.dumps(own._greeting(), allow_nan=False)
                 self.write_message(greeting).add_done_callback(asyncio.Future.exception)
                 own._pages.add(self)
 
             def on_message(self, message: str | bytes) -> None:
+                if self not in own._pages:
+                    return
                 try:
                     said = json.loads(message)
                 except (ValueError, RecursionError):  # no JSON, or lists in lists in lists: no page of ours says such
@@ -198,7 +205,7 @@ class Server:
                 own._pages.discard(self)
 
         return tornado.web.Application(
-            [("/", Page), (f"/live/{self.token}", Live)],
+            [("/", Page), ("/live/([0-9a-f]{16})", Live)],
             log_function=lambda _: None,
             websocket_max_message_size=LONGEST,
         )

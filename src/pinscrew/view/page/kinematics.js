@@ -46,6 +46,13 @@
       return found.reverse();
     }
 
+    // Which velocities move a frame, in the robot's order.
+    moving(frame) {
+      const found = new Set();
+      for (const i of this.above(frame)) this.motions[i].twists.forEach((_, k) => found.add(this.motions[i].v + k));
+      return [...found].sort((a, b) => a - b);
+    }
+
     // The displacement of each motion's child from its place at zero.
     displacements(q) {
       const found = [];

@@ -3,6 +3,8 @@
 (function (ps) {
   const BEAT = 4000; // ms without a word from the server, which speaks every second, after which it counts as gone
 
+  const RESTARTED = 4001; // as in server.py
+
   class Live {
     constructor(app) {
       this.app = app;
@@ -19,7 +21,9 @@
     connect() {
       this.socket = new WebSocket(`ws://${location.host}/live/${this.app.document.live}`);
       this.socket.onmessage = (event) => this.take(JSON.parse(event.data));
-      this.socket.onclose = () => {
+      this.socket.onclose = ({ code }) => {
+        // Another process has the port: its page takes over, and what the address says of the state.
+        if (code === RESTARTED) location.reload();
         this.show(false);
         setTimeout(() => this.connect(), 2000);
       };

@@ -74,6 +74,7 @@
       this.tree = new ps.Tree(this.viewer, given, this.robot);
       this.stage = new ps.Stage(this.viewer, pane, this.tree, given.size);
       this.panel = new ps.Panel(this);
+      this.stage.moved = () => ps.address.keep(this);
       this.player = new Player(this);
       this.player.load(given.animation, false);
       this.show();
@@ -81,6 +82,10 @@
       this.viewer.set_3d_pane_size();
       this.stage.frame();
       this.viewer.render();
+      ps.copy.connect(this);
+      const said = ps.address.read(given, location.hash);
+      if (Object.keys(said).length) this.set(said);
+      window.addEventListener("hashchange", () => this.set(ps.address.read(given, location.hash)));
       if (given.live) this.live = new ps.Live(this);
     }
 
@@ -123,7 +128,7 @@
     }
 
     // Take over some of the state; `tell` whether Python is to hear of it.
-    set({ q, qd, tip, kind, draw }, tell = true) {
+    set({ q, qd, tip, kind, draw, camera }, tell = true) {
       const { state } = this;
       if (tell) this.touched = true;
       if (q) state.q = this.robot.normalised(q);
@@ -137,7 +142,9 @@
         this.workspace = this.cloud();
       }
       if (q) this._trail();
+      if (camera) this.stage.look(camera);
       this.show();
+      ps.address.keep(this);
       if (tell && this.live) this.live.tell();
     }
 

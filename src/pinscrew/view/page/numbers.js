@@ -16,10 +16,11 @@
     return Number(text) === 0 ? text.replace("-", "") : text;
   }
 
-  // Four decimals, or as many as show four significant digits; 0 for what rounding leaves.
+  // Four decimals, or as many as show four significant digits; 0 for what rounding leaves, that of a file's π of 11
+  // digits among it.
   function significant(x) {
     const size = Math.abs(x);
-    if (size < 1e-12) return "0";
+    if (size < 1e-9) return "0";
     if (size >= 1e5 || size < 1e-3) return x.toExponential(3);
     return size >= 0.1 ? x.toFixed(4) : x.toPrecision(4);
   }
@@ -52,7 +53,9 @@
         const head = this.table.createTHead().insertRow();
         if (rows.some(Boolean)) head.appendChild(element("th"));
         this.heads = columns.map((name, j) => {
-          const cell = head.appendChild(element("th", "", shown[j]));
+          const cell = head.appendChild(element("th"));
+          // A long name goes on in the next line, after an underscore where there is one.
+          shown[j].split(/(?<=_)/).forEach((word) => cell.append(word, document.createElement("wbr")));
           cell.scope = "col";
           cell.title = name;
           return cell;

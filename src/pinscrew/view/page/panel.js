@@ -10,14 +10,15 @@
   const { element, fixed, significant: short, Table } = ps.numbers;
   const byId = (id) => document.getElementById(id);
 
-  // Names without the words that all begin with: columns are narrow.
-  function withoutPrefix(names) {
-    let shared = names.length > 1 ? names[0].lastIndexOf("_") + 1 : 0;
-    while (shared > 0 && !names.every((name) => name.length > shared && name.startsWith(names[0].slice(0, shared)))) {
-      // lastIndexOf takes a negative place for 0, where "_shoulder" has an underscore again and again.
-      shared = shared < 2 ? 0 : names[0].lastIndexOf("_", shared - 2) + 1;
-    }
-    return names.map((name) => name.slice(shared));
+  // Names without the words that all begin and end with: columns are narrow.
+  function withoutShared(names) {
+    if (names.length < 2) return names;
+    const parts = names.map((name) => name.split("_"));
+    const same = (place) => parts.every((words) => words[place(words)] === parts[0][place(parts[0])]);
+    const room = () => parts.every((words) => words.length > 1 && words.slice(1).join("_") && words.slice(0, -1).join("_"));
+    while (room() && same(() => 0)) parts.forEach((words) => words.shift());
+    while (room() && same((words) => words.length - 1)) parts.forEach((words) => words.pop());
+    return parts.map((words) => words.join("_"));
   }
 
   class Panel {
@@ -28,7 +29,6 @@
       this.pose = new Table(byId("pose"));
       this.jacobian = new Table(byId("jacobian"));
       this.measures = new Table(byId("measures"));
-      this.columns = withoutPrefix(given.velocities);
       this.sliders = given.coordinates.map((coordinate, i) => this._coordinate(coordinate, i));
       this.rates = given.velocities.map((name, i) => this._rate(name, i));
       this.mimics = given.motions.filter((motion) => motion.mimic).map((motion) => this._mimic(motion));
@@ -50,7 +50,14 @@
       byId("lower").addEventListener("click", () => limits("lower"));
       byId("upper").addEventListener("click", () => limits("upper"));
       byId("frame-view").addEventListener("click", () => app.stage.frame());
-      const beside = given.coordinates.filter((c) => c.opening !== c.neutral).map((c) => c.name);
+      byId("picture").addEventListener("click", () => {
+        const link = element("a");
+        link.href = app.stage.picture();
+        link.download = `${given.name}.png`;
+        link.click();
+      });
+      const beside = given.coordinates.filter((c, i) => c.opening !== c.neutral && c.opening === given.state.q[i])
+        .map((c) => c.name);
       byId("opening").hidden = beside.length === 0;
       byId("opening").textContent = `Zero is outside the limits of ${beside.join(", ")}: it starts in the middle of them.`;
       this.checks = new Map(given.groups.map((group) => [group, this._check(group)]));
@@ -167,9 +174,12 @@
       byId("pose-title").textContent = `Pose of ${state.tip} in ${given.base}`;
       byId("jacobian-title").textContent = `${state.kind} Jacobian of ${state.tip}`;
       this.pose.fill(["", "", "", ""], ["", "", "", ""], (i, j) => T[4 * i + j]);
+      const moving = this.app.robot.moving(state.tip), names = moving.map((i) => given.velocities[i]);
       const V = ROWS.map((_, r) => J.reduce((sum, column, i) => sum + column[r] * state.qd[i], 0));
-      this.jacobian.fill(ROWS, [...given.velocities, "V"], (i, j) => (j < J.length ? J[j][i] : V[i]),
-        [...this.columns, "V"]);
+      this.jacobian.fill(ROWS, [...names, "V"], (i, j) => (j < moving.length ? J[moving[j]][i] : V[i]),
+        [...withoutShared(names), "V"]);
+      byId("still").textContent = names.length === given.velocities.length ? ""
+        : `${names.length} of ${given.velocities.length} velocities move it; the other columns are zero`;
       ps.numbers.measures(this.measures, { parts: measures, twist: generic.rows === 6 && generic.rank ? margin : null });
       const length = L.norm(line.direction);
       byId("screw").textContent = length === 0

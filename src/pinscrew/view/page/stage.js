@@ -24,6 +24,7 @@
         MeshCat.Viewer.prototype.set_3d_pane_size.call(viewer, pane.clientWidth, pane.clientHeight);
       // The robot stays in sight until a person takes the camera.
       viewer.controls.addEventListener("start", () => (this.taken = true));
+      viewer.controls.addEventListener("end", () => this.moved && this.moved());
       new ResizeObserver(() => {
         viewer.set_3d_pane_size();
         if (!this.taken) this.frame();
@@ -93,6 +94,40 @@
       viewer.camera.updateProjectionMatrix();
       viewer.controls.update();
       viewer.set_dirty();
+    }
+
+    // Where the camera is and what it looks at, six numbers of meshcat's world.
+    camera() {
+      const { camera, controls } = this.viewer;
+      return [...camera.position.toArray(), ...controls.target.toArray()];
+    }
+
+    look(numbers) {
+      this.frame();
+      this.taken = true;
+      this.viewer.camera.position.fromArray(numbers);
+      this.viewer.controls.target.fromArray(numbers, 3);
+      this.viewer.controls.update();
+      this.viewer.set_dirty();
+    }
+
+    // The scene with its labels, as the address of a picture.
+    picture() {
+      const { viewer } = this, drawn = viewer.renderer.domElement;
+      viewer.render();
+      const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
+      [canvas.width, canvas.height] = [drawn.width, drawn.height];
+      context.drawImage(drawn, 0, 0);
+      context.scale(drawn.width / this.pane.clientWidth, drawn.height / this.pane.clientHeight);
+      context.textBaseline = "top";
+      for (const { text } of this.texts.filter((label) => label.text.style.visibility === "visible")) {
+        const { left, top } = text.getBoundingClientRect(), pane = this.pane.getBoundingClientRect();
+        const style = getComputedStyle(text);
+        context.font = `${style.fontStyle} ${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
+        context.fillStyle = style.color;
+        context.fillText(text.textContent, left - pane.left, top - pane.top);
+      }
+      return canvas.toDataURL("image/png");
     }
 
     _labels() {
