@@ -8,14 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from pinscrew.cli import arguments, output
+from pinscrew.cli import arguments, moving, output
 
 if TYPE_CHECKING:
+    from pinscrew.derivation.asked import Asked
     from pinscrew.derivation.derivation import Derivation
     from pinscrew.derivation.proof import Proof
     from pinscrew.derivation.writer import Detail
+    from pinscrew.robot.robot import Robot
 
 __all__ = ["command"]
+
+_BEFORE_A_POINT = ("pose", "velocity-matrix", "spatial-velocity")
 
 
 def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ...]) -> dict[str, float]:
@@ -53,6 +57,13 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     help="Only these sections, by letter (d), key (pose) or name (T, Js, Jb, Jh, Ad): i,l or repeated. "
     "Parts n to r (singularities, screws, spatial-velocity, general-column, geometric) are shown only so.",
 )
+@click.option(
+    "--point",
+    "place",
+    metavar="X,Y,Z",
+    help="The velocity of this point of the frame too; X,Y,Z@FRAME names the frame.",
+)
+@click.option("--at", metavar="NAME=VALUE", help="With --point: its velocity at these values, the other joints free.")
 @click.option(
     "--detail",
     type=click.Choice(["result", "steps", "full"]),
@@ -146,6 +157,8 @@ def _report(
     tip: str | None,
     reference: str | None,
     parts: tuple[str, ...],
+    place: str | None,
+    at: str | None,
     detail: Detail,
     symbols: bool,
     named: dict[str, float],
@@ -157,14 +170,20 @@ def _report(
     **options: Any,
 ) -> tuple[str, bool]:
     """The text, and whether the proof holds."""
+    from pinscrew.derivation.asked import NOTHING, asked
     from pinscrew.derivation.exact import SNAP
     from pinscrew.derivation.parts import wanted
     from pinscrew.derivation.run import derive
 
     one = arguments.robot(words)
     wanted(parts, large=False)  # a wrong part is said before the work begins
+    if place is None and at is not None:
+        raise click.UsageError("--at is of a point: give --point too")
+    point, tip = ((0.0, 0.0, 0.0), tip) if place is None else moving.point(place, tip)
+    robot = one.load()
+    values = _values(robot, at)
     derivation = derive(
-        one.load(),
+        robot,
         tip,
         reference=reference,
         symbols=symbols or named,
@@ -182,18 +201,28 @@ def _report(
         if proof.ok:
             read_back_code(derivation, text, language, kind)
         return text, proof.ok
-    return _written(derivation, derivation.prove(samples, seed), form, parts, detail)
+    about = NOTHING if place is None else asked(derivation, point, values)
+    return _written(derivation, derivation.prove(samples, seed), form, parts, detail, about)
 
 
 def _written(
-    derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...], detail: Detail
+    derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...], detail: Detail, about: Asked
 ) -> tuple[str, bool]:
-    from pinscrew.derivation import reports
+    from pinscrew.derivation import points, reports
 
-    whole = reports.report(derivation, proof, parts, detail=detail)
+    extra = [points.point_section(derivation, about, detail)] if about.point is not None else []
+    parts = parts or (_BEFORE_A_POINT if extra else ())
+    whole = reports.report(derivation, proof, parts, extra, detail)
     if not proof.ok:  # what is wrong already is not held against the engines once more
         return reports.write(whole, form), False
-    return reports.written(derivation, whole, form), True
+    return reports.written(derivation, whole, form, about), True
+
+
+def _values(robot: Robot, text: str | None) -> dict[str, float]:
+    """The values of ``--at`` by the names of coordinates."""
+    if text is None:
+        return {}
+    return arguments.values_by_name(text, robot.name, robot.coordinate_names, robot.coordinate_units, "--at")
 
 
 def _worksheet(words: tuple[str, ...], form: str, tip: str | None) -> str:

@@ -146,17 +146,17 @@ class ClosedForms:
     @cached_property
     def pose_rate(self) -> sp.ImmutableMatrix:
         """ġ, in the rates of the coordinates, shape (4, 4)."""
-        return self._in_rates(self.write(self.normal.pose_rate))
+        return self.in_rates(self.write(self.normal.pose_rate))
 
     @cached_property
     def body_hat(self) -> sp.ImmutableMatrix:
         """V̂^b = g⁻¹ġ, shape (4, 4)."""
-        return self._in_rates(self.write(self.normal.body_hat))
+        return self.in_rates(self.write(self.normal.body_hat))
 
     @cached_property
     def spatial_hat(self) -> sp.ImmutableMatrix:
         """V̂^s = ġg⁻¹, shape (4, 4)."""
-        return self._in_rates(self.write(self.normal.spatial_hat))
+        return self.in_rates(self.write(self.normal.spatial_hat))
 
     @cached_property
     def adjoint(self) -> sp.ImmutableMatrix:
@@ -204,17 +204,17 @@ class ClosedForms:
     @cached_property
     def body_velocity(self) -> sp.ImmutableMatrix:
         """V^b = J^b θ̇, shape (6, 1)."""
-        return self._in_rates(self.write(self.normal.body_velocity.reshape(6, 1)))
+        return self.in_rates(self.write(self.normal.body_velocity.reshape(6, 1)))
 
     @cached_property
     def spatial_velocity(self) -> sp.ImmutableMatrix:
         """V^s = J^s θ̇, shape (6, 1)."""
-        return self._in_rates(self.write(self.normal.spatial_velocity.reshape(6, 1)))
+        return self.in_rates(self.write(self.normal.spatial_velocity.reshape(6, 1)))
 
     @cached_property
     def hybrid_velocity(self) -> sp.ImmutableMatrix:
         """V^h = diag(R, R) V^b, shape (6, 1)."""
-        return self._in_rates(self.write(self.normal.hybrid_velocity.reshape(6, 1)))
+        return self.in_rates(self.write(self.normal.hybrid_velocity.reshape(6, 1)))
 
     @property
     def velocities_agree(self) -> bool:
@@ -240,7 +240,7 @@ class ClosedForms:
             if joint.master is not joint.variable
         }
 
-    def _in_rates(self, matrix: sp.ImmutableMatrix) -> sp.ImmutableMatrix:
+    def in_rates(self, matrix: sp.ImmutableMatrix) -> sp.ImmutableMatrix:
         """With the rates of joints that follow others put in terms of those of the coordinates."""
         rates = {
             joint.variable.rate: joint.multiplier * joint.master.rate

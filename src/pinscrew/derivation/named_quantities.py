@@ -11,6 +11,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from pinscrew.derivation.names import Names, NotUnderstoodError
+from pinscrew.derivation.point_quantities import point_quantity
 from pinscrew.derivation.step_quantities import step_quantity
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import FloatArray
@@ -201,6 +202,8 @@ class _Side:
             i = int(sub)
             columns = {"'": "spatial", r"\dagger": "body"}
             found = self._names.twist(truth.column(columns[sup], i) if sup in columns else truth.twist(i))
+        elif base in ("q", "v") and self._names.point is not None and not sub.isdecimal():
+            found = point_quantity(truth, self._names.point, base, sub, self._argument())
         elif base == "q" and sub.isdecimal():
             found = self._names.points.get(int(sub))
         elif base == r"\dot{\theta}" and not sub + sup:

@@ -37,6 +37,7 @@ class Names:
         grid: the value of a matrix of entries, or None where it is a general form.
         scalar: the value (N,) of a symbol, such as a joint's rate; raises `NotUnderstoodError`.
         points: points q_i of axes that were read before.
+        point: the point that the report is about, x, y, z in the frame (m), shape (3,).
     """
 
     truth: Truth
@@ -46,6 +47,7 @@ class Names:
     grid: Callable[[Grid], FloatArray | None]
     scalar: Callable[[str], FloatArray]
     points: Mapping[int, FloatArray]
+    point: FloatArray | None = None
 
     def twist(self, matrix: FloatArray) -> FloatArray:
         """Twists or a Jacobian with its rows in the book's order."""

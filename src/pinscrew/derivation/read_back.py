@@ -16,6 +16,7 @@ from typing import Final
 
 import numpy as np
 
+from pinscrew.derivation.asked import NOTHING, Asked
 from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.named_quantities import side_value
 from pinscrew.derivation.names import Names, NotUnderstoodError
@@ -54,7 +55,7 @@ class ReadBack:
     largest: float
 
 
-def read_back(derivation: ClosedForms, text: str, form: str, seed: int = 0) -> ReadBack:
+def read_back(derivation: ClosedForms, text: str, form: str, seed: int = 0, asked: Asked = NOTHING) -> ReadBack:
     """Read a report's text and compare every matrix in it with both engines.
 
     Args:
@@ -62,12 +63,13 @@ def read_back(derivation: ClosedForms, text: str, form: str, seed: int = 0) -> R
         text: the report.
         form: its format, as for `reports.write`.
         seed: of the random values.
+        asked: what else the report is about.
 
     Raises:
         ReadBackError: a matrix cannot be read, or is not what the engines say.
     """
     drawn = draw(derivation, seed)
-    reader = _Reader(derivation, drawn)
+    reader = _Reader(derivation, drawn, asked)
     equations: list[Equation] = []
     try:
         for formula in formulas(text, form):
@@ -96,8 +98,8 @@ _SHORT: Final = re.compile(r"([cs])_(.+)")
 class _Reader:
     """Evaluates the equations of one report."""
 
-    def __init__(self, derivation: ClosedForms, drawn: Drawn) -> None:
-        self._d, self._drawn = derivation, drawn
+    def __init__(self, derivation: ClosedForms, drawn: Drawn, asked: Asked = NOTHING) -> None:
+        self._d, self._drawn, self._asked = derivation, drawn, asked
         self._known = _scalars(derivation, drawn)
         values = _values(derivation, drawn)
         self._labels = {v.label: values[v.joint] for v in derivation.variables if v.joint in values}
@@ -116,9 +118,8 @@ class _Reader:
         truths = (Truth(engine, self._d, self._drawn) for engine in (PoE, Pinocchio))
         first = self._d.convention == "lynch-park"
         joints = tuple(str(symbol).replace("_", "") for symbol in self._d.joint_values)
-        return tuple(
-            Names(truth, first, joints, self._drawn.qd, self.grid, self.scalar, self._points) for truth in truths
-        )
+        of_all = (first, joints, self._drawn.qd, self.grid, self.scalar, self._points)
+        return tuple(Names(truth, *of_all, self._asked.numbers) for truth in truths)
 
     def equation(self, equation: Equation, following: Sequence[Equation]) -> None:
         """Read one equation; the ``following`` ones may say what names in its matrices stand for."""

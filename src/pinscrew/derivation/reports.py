@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from pinscrew.derivation import formats, page
+from pinscrew.derivation.asked import NOTHING, Asked
 from pinscrew.derivation.blocks import Block, Paragraph, Section, Table, Writeup, from_file, named
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
@@ -119,12 +120,13 @@ _COUNTED: Final = "MATRICESREADBACK"
 """Stands for their number in the text until that has been read."""
 
 
-def written(derivation: Derivation, whole: Writeup, form: str) -> str:
+def written(derivation: Derivation, whole: Writeup, form: str, asked: Asked = NOTHING) -> str:
     """A report as text that was read back, and says so: see `read_back`.
 
     Args:
         derivation: what the report is of.
         whole: from `report`.
+        asked: what else it is about.
         form: as for `write`.
 
     Raises:
@@ -138,7 +140,7 @@ def written(derivation: Derivation, whole: Writeup, form: str) -> str:
     )
     text = write(replace(whole, sections=(*whole.sections, Section("", "read-back", "Read back", (said,)))), form)
     latex = write(whole, "markdown") if form == "terminal" else text
-    found = read_back(derivation, latex, "markdown" if form == "terminal" else form)
+    found = read_back(derivation, latex, "markdown" if form == "terminal" else form, asked=asked)
     return text.replace(_COUNTED, str(found.matrices))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -13,6 +13,7 @@ import sympy as sp
 from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.proof import relative, variant
 from pinscrew.engines.base import Answers
+from pinscrew.ground.errors import InputError
 from pinscrew.ground.typing import FloatArray, KindLike, jacobian_kind
 from pinscrew.lie import se3
 from pinscrew.robot.robot import Robot
@@ -72,6 +73,16 @@ class Truth:
         self._engine, self._d, self._drawn = engine, d, drawn
         self.name = engine.__name__
         self.joints = len(d.chain.joints)
+
+    def at(self, values: Sequence[float | None]) -> Truth:
+        """The same question, with these values of the coordinates; None keeps one as it was drawn."""
+        q = self._drawn.q.copy()
+        if len(values) != q.shape[1]:
+            raise InputError("formula", f"{len(values)} values for {q.shape[1]} coordinates")
+        for column, value in enumerate(values):
+            if value is not None:
+                q[:, column] = value
+        return Truth(self._engine, self._d, replace(self._drawn, q=q))
 
     def _ask(self, robot: Robot, named: Mapping[str, FloatArray], count: int, frames: Sequence[str] = ()) -> Answers:
         q, qd = np.zeros((count, robot.nq)) + robot.neutral, np.zeros((count, robot.nv))
