@@ -31,7 +31,7 @@ This page is written by `scripts/commands_page.py`.
 
 def page() -> str:
     """The page, in Markdown."""
-    top = click.Context(pinscrew, info_name="pinscrew")
+    top = click.Context(pinscrew, info_name="pinscrew", **pinscrew.context_settings)
     parts = [INTRODUCTION]
     for name in pinscrew.list_commands(top):
         command = pinscrew.get_command(top, name)

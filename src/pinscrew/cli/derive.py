@@ -11,7 +11,7 @@ import click
 from pinscrew.cli import arguments, moving, output
 
 if TYPE_CHECKING:
-    from pinscrew.derivation.asked import Asked
+    from pinscrew.derivation.asked import PointQuestion
     from pinscrew.derivation.derivation import Derivation
     from pinscrew.derivation.proof import Proof
     from pinscrew.derivation.writer import Detail
@@ -206,7 +206,7 @@ def _report(
 
 
 def _written(
-    derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...], detail: Detail, about: Asked
+    derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...], detail: Detail, about: PointQuestion
 ) -> tuple[str, bool]:
     from pinscrew.derivation import points, reports
 

@@ -14,11 +14,11 @@ from pinscrew.derivation.forms import ClosedForms
 from pinscrew.ground.errors import UnknownNameError
 from pinscrew.ground.typing import FloatArray
 
-__all__ = ["NOTHING", "Asked", "asked"]
+__all__ = ["NOTHING", "PointQuestion", "asked"]
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class PointQuestion:
     """A point and joint values.
 
     Attributes:
@@ -35,11 +35,11 @@ class Asked:
         return None if self.point is None else np.array([float(x) for x in self.point])
 
 
-NOTHING: Final = Asked()
+NOTHING: Final = PointQuestion()
 """Only the parts."""
 
 
-def asked(derivation: ClosedForms, point: tuple[float, float, float], at: Mapping[str, float]) -> Asked:
+def asked(derivation: ClosedForms, point: tuple[float, float, float], at: Mapping[str, float]) -> PointQuestion:
     """A question about a point of the derivation's frame.
 
     Args:
@@ -61,7 +61,7 @@ def asked(derivation: ClosedForms, point: tuple[float, float, float], at: Mappin
         symbol = by_name[name]
         angle = exact.angle(repr(value), name, exact.Snaps(0.0)) if symbol in turning else None
         values[symbol] = _length(value) if angle is None or angle.has(sp.Float) else angle
-    return Asked(sp.ImmutableMatrix([_length(x) for x in point]), values)
+    return PointQuestion(sp.ImmutableMatrix([_length(x) for x in point]), values)
 
 
 def _length(value: float) -> Any:

@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.derivation.asked import NOTHING, Asked
+from pinscrew.derivation.asked import NOTHING, PointQuestion
 from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.named_quantities import side_value
 from pinscrew.derivation.names import Names, NotUnderstoodError
@@ -55,7 +55,7 @@ class ReadBack:
     largest: float
 
 
-def read_back(derivation: ClosedForms, text: str, form: str, seed: int = 0, asked: Asked = NOTHING) -> ReadBack:
+def read_back(derivation: ClosedForms, text: str, form: str, seed: int = 0, asked: PointQuestion = NOTHING) -> ReadBack:
     """Read a report's text and compare every matrix in it with both engines.
 
     Args:
@@ -98,7 +98,7 @@ _SHORT: Final = re.compile(r"([cs])_(.+)")
 class _Reader:
     """Evaluates the equations of one report."""
 
-    def __init__(self, derivation: ClosedForms, drawn: Drawn, asked: Asked = NOTHING) -> None:
+    def __init__(self, derivation: ClosedForms, drawn: Drawn, asked: PointQuestion = NOTHING) -> None:
         self._d, self._drawn, self._asked = derivation, drawn, asked
         self._known = _scalars(derivation, drawn)
         values = _values(derivation, drawn)
