@@ -19,9 +19,10 @@ from pinscrew.cli import arguments
 from pinscrew.cli.check import option_words
 
 SCARA = ps.load("scara")
-RIGHT = {"quantity": "Js", "right": True, "entries": [], "unread": [], "slips": []}
-WRONG = {"quantity": "T", "right": False, "entries": [[2, 4]], "unread": [], "slips": ["the sign of entry (2, 4)"]}
-UNREAD = {"quantity": "p", "right": None, "entries": [], "unread": [{"entry": [1, 1], "reason": "a\nb"}], "slips": []}
+EMPTY: dict[str, list[str]] = {"entries": [], "unread": [], "slips": [], "follows": []}
+RIGHT = {"quantity": "Js", "right": True, **EMPTY}
+WRONG = {"quantity": "T", "right": False, **EMPTY, "entries": [[2, 4]], "slips": ["the sign of entry (2, 4)"]}
+UNREAD = {"quantity": "p", "right": None, **EMPTY, "unread": [{"entry": [1, 1], "reason": "a\nb"}]}
 
 
 def rows(text: str) -> list[dict[str, str]]:
@@ -40,6 +41,8 @@ def test_table() -> None:
     assert (first["p"], first["M"]) == ("not read: a b", "blank")
     assert (second["file"], second["error"], second["Js"]) == ("b,c.md", 'it takes "long"', "")
     assert third["T"].startswith("wrong (1, 1) (2, 1) (3, 1) (4, 1) (5, 1) (6, 1) …; wrong (2, 4)")
+    carried = Submission("e.md", (WRONG | {"follows": ["xi2"]},))
+    assert carried.cell("T") == "wrong (2, 4): follows from xi2"
     assert str(found[0]) == "=a.md: 1 right, 1 wrong, 1 not read"
     assert str(found[1]) == 'b,c.md: it takes "long"'
 

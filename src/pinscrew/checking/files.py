@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
 from numpy.typing import ArrayLike
 
+from pinscrew.checking.carried import follows_from
+from pinscrew.checking.grading import Graded, graded
 from pinscrew.checking.meanings import Meanings
 from pinscrew.checking.names import quantity_in_heading, quantity_named
 from pinscrew.checking.passages import Passage, passages
@@ -18,6 +20,7 @@ from pinscrew.checking.scope import Scope
 from pinscrew.checking.sheet import AnswerSheet, Refused
 from pinscrew.checking.texts import Assigned, Written, written
 from pinscrew.checking.verdict import AnswerVerdict
+from pinscrew.derivation.chain import Elements
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.description import markup
 from pinscrew.ground.errors import InputError
@@ -74,6 +77,7 @@ def check_file(
     stands = passages(markup.read(path), path.suffix.lower())
     joints = len(derivation.chain.joints)
     found, later = _found(stands, derivation)
+    scope, earlier = Scope(derivation), dict[str, Elements]()
     verdicts: list[tuple[AnswerVerdict, int]] = []
     refused: list[Refused] = []
     blank: dict[str, None] = {}
@@ -90,7 +94,11 @@ def check_file(
         try:
             if each.matrix is None:
                 raise InputError("formula", each.reason)
-            verdict = verdict_on(derivation, key, each.matrix, {**later, **each.before}, q)
+            defined = {**later, **each.before}
+            if q is None:
+                verdict = _following(derivation, graded(derivation, key, each.matrix, defined, scope=scope), earlier)
+            else:
+                verdict = verdict_on(derivation, key, each.matrix, defined, q)
             verdicts.append((verdict, each.passage.line))
         except InputError as error:
             refused.append(Refused(key, each.passage.line, str(error)))
@@ -104,6 +112,16 @@ def check_file(
         blank=tuple(key for key in blank if key not in answered),
         passed=tuple(passed),
     )
+
+
+def _following(derivation: Derivation, answer: Graded, earlier: dict[str, Elements]) -> AnswerVerdict:
+    """The verdict, with the earlier wrong answers that a wrong one follows from; a wrong one is an earlier one then."""
+    verdict, given = answer.verdict, answer.elements
+    if verdict.right is not False or given is None:
+        return verdict
+    follows = follows_from(derivation, answer.scope, verdict.quantity, given, earlier) if earlier else ()
+    earlier[verdict.quantity] = given
+    return replace(verdict, follows=follows, slips=()) if follows else verdict
 
 
 def _found(stands: list[Passage], derivation: Derivation) -> tuple[list[_NamedMatrix], dict[str, Node]]:

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from itertools import combinations_with_replacement
 from typing import Final
 
+import numpy as np
+
 from pinscrew.checking.edits import edits, symbol_names
 from pinscrew.checking.meanings import Meanings, given
 from pinscrew.checking.quantities import right_form
 from pinscrew.checking.scope import NoValueError, Quotient, Scope
 from pinscrew.checking.slips import Asked, slips
+from pinscrew.checking.structure import structure
 from pinscrew.checking.texts import Written
 from pinscrew.checking.verdict import AnswerVerdict
 from pinscrew.derivation.chain import Elements
@@ -40,6 +43,12 @@ class Graded:
     verdict: AnswerVerdict
     scope: Scope
     values: Mapping[Place, Quotient]
+
+    @property
+    def elements(self) -> Elements | None:
+        """The answer as elements of the scope's algebra; None where an entry is a quotient, or can't be read."""
+        expected = self.verdict.expected
+        return _elements(self.values, (len(expected), len(expected[0])), self.scope)
 
 
 def shaped(matrix: Written, shape: tuple[int, ...], key: str) -> Written:
@@ -90,7 +99,12 @@ def _arrays(cell: str) -> set[str]:
 
 
 def graded(
-    derivation: Derivation, key: str, matrix: Written, defined: Mapping[str, Node], free: Iterable[str] = ()
+    derivation: Derivation,
+    key: str,
+    matrix: Written,
+    defined: Mapping[str, Node],
+    free: Iterable[str] = (),
+    scope: Scope | None = None,
 ) -> Graded:
     """The verdict on a matrix.
 
@@ -100,11 +114,13 @@ def graded(
         matrix: the answer as it is written.
         defined: formulas that it gives names to, in order.
         free: names that are letters of their own, and mean nothing that the robot has.
+        scope: where values are worked out, if they are to be compared with others'.
 
     Raises:
         InputError: it has another shape than the quantity.
     """
-    scope, meanings = Scope(derivation, free), Meanings(derivation, free)
+    scope, meanings = scope or Scope(derivation, free), Meanings(derivation, free)
+    scope.refill()
     right = right_form(derivation, key)
     matrix = shaped(matrix, right.shape, key)
     question = Asked(derivation, key, scope, lambda element: Quotient(scope.adopt(element), scope.one))
@@ -122,6 +138,7 @@ def graded(
         due = _nearest(right_form(derivation, f"omega{key[1:]}"), due, values, scope)
     wrong = tuple(place for place, value in values.items() if value != due[place[0] - 1][place[1] - 1])
     found: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
     if wrong and not unread:
         both = range(1, right.shape[0] + 1), range(1, right.shape[1] + 1)
         explainer = _Explainer(scope, symbol_names(derivation), due, meanings, known)
@@ -129,6 +146,8 @@ def graded(
         def explain(i: int, j: int) -> str:
             return explainer.words(nodes[i + 1, j + 1], values[i + 1, j + 1], due[i][j])
 
+        answer = _elements(values, right.shape, scope)
+        faults = structure(key, answer) if answer is not None else ()
         found = slips(question, [[values[i, j] for j in both[1]] for i in both[0]], due, explain)
     expected = derivation.write(right)
     verdict = AnswerVerdict(
@@ -139,8 +158,17 @@ def graded(
         slips=found,
         given=matrix.rows,
         expected=tuple(tuple(str(x) for x in row) for row in expected.tolist()),
+        structure=faults,
     )
     return Graded(verdict, scope, values)
+
+
+def _elements(values: Mapping[Place, Quotient], shape: tuple[int, ...], scope: Scope) -> Elements | None:
+    """The values as elements; None where one is a quotient, or is not there."""
+    places = [(i, j) for i in range(1, shape[0] + 1) for j in range(1, shape[1] + 1)]
+    if any(place not in values or values[place].under is not scope.one for place in places):
+        return None
+    return np.array([values[place].over for place in places], dtype=object).reshape(shape)
 
 
 def graded_entry(derivation: Derivation, node: Node, right: Node, free: Iterable[str] = ()) -> str | None:

@@ -9,6 +9,8 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
+from pinscrew.checking.quantities import is_quantity, quantity_key
+
 __all__ = ["quantity_in_heading", "quantity_named"]
 
 LONGEST_NAME: Final = 200
@@ -84,7 +86,7 @@ def quantity_named(name: str, joints: int) -> str | None:
             number = next((group for group in found.groups() if group), "")
             first = 0 if key.startswith("z") else 1
             return None if number and not first <= int(number) < first + joints else key.format(number)
-    return None
+    return quantity_key(name, joints) if is_quantity(name, joints) else None
 
 
 def _product(numbers: list[int], joints: int, *, home: bool) -> str | None:

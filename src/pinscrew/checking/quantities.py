@@ -19,7 +19,7 @@ from pinscrew.derivation.trig import Element
 from pinscrew.ground.errors import InputError
 from pinscrew.ground.words import brief
 
-__all__ = ["FUNCTIONS", "QUANTITIES", "quantity_key", "right_form"]
+__all__ = ["FUNCTIONS", "QUANTITIES", "atoms_of", "is_quantity", "quantity_key", "right_form"]
 
 QUANTITIES: Final = {
     "M": "the home pose",
@@ -116,6 +116,11 @@ def quantity_key(name: str, joints: int) -> str:
     raise InputError("check-quantity", what, remedy=f"the quantities are: {listed}")
 
 
+def is_quantity(name: str, joints: int) -> bool:
+    """Whether a name is one that this module itself writes for a quantity of an arm with so many joints."""
+    return len(name) <= LONGEST_NAME and _known(name, joints)
+
+
 def _known(plain: str, joints: int) -> bool:
     call = _CALL.fullmatch(plain)
     if call:
@@ -148,6 +153,14 @@ def right_form(derivation: Derivation, key: str, instead: Mapping[str, Elements]
     except _NoFunctionError as error:
         remedy = f"{call[1]}: {FUNCTIONS[call[1]]}"
         raise InputError("check-quantity", f"there is no {key}: {error}", remedy=remedy) from None
+
+
+def atoms_of(key: str) -> tuple[str, ...]:
+    """The quantity that functions are asked of in a key: T in ``Ad(inv(T))``, or the key itself."""
+    key = _SHORT.get(key, key)
+    while call := _CALL.fullmatch(key):
+        key = call[2]
+    return (key,)
 
 
 class _NoFunctionError(Exception):

@@ -73,6 +73,10 @@ class Scope:
         self._left = MOST_PRODUCTS
         self.one = self.algebra.constant(1)
 
+    def refill(self) -> None:
+        """Let as much be worked out as at the beginning, for another answer."""
+        self._left = MOST_PRODUCTS
+
     def symbol(self, symbol: sp.Symbol) -> Element:
         """A symbol as itself."""
         return self.algebra.constant(symbol)

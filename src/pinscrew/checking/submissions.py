@@ -75,6 +75,7 @@ def _said(answer: dict[str, Any]) -> str:
         return one_line(f"not read: {brief(str(answer['unread'][0]['reason']), 120)}")
     places = " ".join(f"({i}, {j})" for i, j in answer["entries"][:6]) + " …" * (len(answer["entries"]) > 6)
     slips = f": {'; '.join(answer['slips'])}" if answer["slips"] else ""
+    slips = f": follows from {', '.join(answer['follows'])}" if answer["follows"] else slips
     return one_line(brief(f"wrong {places}{slips}", 240))
 
 

@@ -25,6 +25,8 @@ class VerdictData:
         entries: rows and columns, from 1, of the entries that are wrong.
         unread: the same of those that can't be read, each with the reason; they are neither right nor wrong.
         slips: what explains what is wrong, in words; empty where no single slip does.
+        structure: what keeps a wrong answer from being a matrix of its kind, in words: RᵀR = I, a last row.
+        follows: quantities that were answered wrongly before, and from which this follows by the right formula.
         given: the answer's entries as they were written.
         expected: the right ones.
     """
@@ -36,6 +38,8 @@ class VerdictData:
     slips: tuple[str, ...]
     given: tuple[tuple[str, ...], ...]
     expected: tuple[tuple[str, ...], ...]
+    structure: tuple[str, ...] = ()
+    follows: tuple[str, ...] = ()
 
     @property
     def right(self) -> bool | None:
@@ -58,8 +62,11 @@ class AnswerVerdict(Documented, VerdictData):
         for i, j in sorted({*self.entries, *reasons}):
             said = Strong("wrong") if (i, j) in self.entries else "not read"
             rows.append((str(i), str(j), said, brief(self.given[i - 1][j - 1]), self.expected[i - 1][j - 1]))
-        lines = [Sentence(slip, "remark", "slip") for slip in self.slips]
-        if self.right is False and not self.slips:
+        lines = [Sentence(fault) for fault in self.structure]
+        if self.follows:
+            lines.append(Sentence(f"it follows rightly from your {', '.join(self.follows)}"))
+        lines += [Sentence(slip, "remark", "slip") for slip in self.slips]
+        if self.right is False and not self.slips and not self.follows:
             lines.append(Sentence("no single slip explains it"))
         lines += [Sentence(f"entry ({i}, {j}) is not read: {why}") for (i, j), why in self.unread]
         problem = None if self.right else Problem("failure" if self.entries else "error", word, "check")
@@ -94,6 +101,8 @@ class AnswerVerdict(Documented, VerdictData):
             "entries": [list(place) for place in self.entries],
             "unread": [{"entry": list(place), "reason": why} for place, why in self.unread],
             "slips": list(self.slips),
+            "structure": list(self.structure),
+            "follows": list(self.follows),
             "given": [list(row) for row in self.given],
             "expected": [list(row) for row in self.expected],
         }
