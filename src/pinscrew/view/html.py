@@ -23,6 +23,7 @@ SCRIPTS: Final = (
     "shapes",
     "tree",
     "stage",
+    "dress",
     "numbers",
     "dialect",
     "copy",

@@ -78,7 +78,9 @@
       this.player = new Player(this);
       this.player.load(given.animation, false);
       this.show();
-      this.panel.scale(this.stage.floor());
+      ps.dress.dress(this.stage);
+      ps.dress.keys(this.stage, pane);
+      this.panel.scale(this.stage.side);
       this.viewer.set_3d_pane_size();
       this.stage.frame();
       this.viewer.render();

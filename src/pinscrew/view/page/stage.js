@@ -14,9 +14,6 @@
       this.tree = tree;
       this.size = size;
       viewer.gui.domElement.style.display = "none";
-      viewer.set_property(["Background"], "top_color", [0.985, 0.988, 0.992]);
-      viewer.set_property(["Background"], "bottom_color", [0.86, 0.885, 0.92]);
-      viewer.show_background();
       for (const name of ["Grid", "Axes"]) viewer.set_property([name], "visible", false);
       this._light();
       // The canvas has the pane's size, not the window's.
@@ -45,18 +42,19 @@
       }
     }
 
-    // A floor below what is drawn, in squares of 1, 2 or 5 times a power of ten; returns their side in metres.
-    floor() {
+    // A floor below what is drawn, in squares of 1, 2 or 5 times a power of ten, its middle lines in the first of two
+    // colours.
+    floor(colors) {
       const corners = this.tree.corners();
       const low = corners.reduce((z, corner) => Math.min(z, corner.y), 0);
       const power = 10 ** Math.floor(Math.log10(this.size / 3));
       const side = power * [5, 2, 1].find((k) => k * power <= this.size / 3);
       const count = 2 * Math.ceil((1.6 * this.size) / side);
-      const grid = new THREE.GridHelper(count * side, count, 0xb4bfcc, 0xd3dae3);
+      const grid = new THREE.GridHelper(count * side, count, ...colors);
       grid.rotateX(Math.PI / 2);
       this.viewer.set_object(["pinscrew", "floor"], grid);
       grid.position.set(0, 0, low - 2e-3 * this.size);
-      return side;
+      this.side = side;
     }
 
     // Look at the whole robot.
@@ -111,6 +109,19 @@
       this.viewer.set_dirty();
     }
 
+    // Turn the camera about what it looks at, by angles to the right and down, and change its distance.
+    orbit(right, down, farther) {
+      this.taken = true;
+      const { camera, controls } = this.viewer;
+      const from = camera.position.clone().sub(controls.target), at = new THREE.Spherical().setFromVector3(from);
+      at.theta += right;
+      at.phi = Math.min(Math.PI - 0.01, Math.max(0.01, at.phi + down));
+      at.radius *= farther;
+      camera.position.setFromSpherical(at).add(controls.target);
+      controls.update();
+      this.viewer.set_dirty();
+    }
+
     // The scene with its labels, as the address of a picture.
     picture() {
       const { viewer } = this, drawn = viewer.renderer.domElement;
@@ -139,9 +150,8 @@
         const text = document.createElement("span");
         text.className = `label ${group}`;
         text.textContent = part.text;
-        text.style.color = `rgb(${part.color.slice(0, 3).map((c) => Math.round(255 * c)).join()})`;
         layer.appendChild(text);
-        return { node, group, owner, text, width: 0, height: 0 };
+        return { node, group, owner, part, text, width: 0, height: 0 };
       });
       const render = MeshCat.Viewer.prototype.render;
       viewer.render = () => {
