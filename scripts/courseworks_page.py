@@ -138,7 +138,7 @@ LECTURE = (
     of("two joints", "V̂ˢ = ġg⁻¹", "derive two_joint --part spatial-velocity", "Vshat", "Vs"),
     of("two joints", "(∂g/∂θᵢ)g⁻¹ = (Ad ξᵢ)^, with its proof", "derive two_joint --part general-column", "Js1", "Js2"),
     of("two joints", "Jˢ, Jᵇ and Ad_g", "derive two_joint --part Js,Jb,Ad", "Js", "Jb", "Ad"),
-    of("two joints", "V_AC = V_AB + Ad V_BC in both forms", ""),
+    of("two joints", "V_AC = V_AB + Ad V_BC in both forms", "derive two_joint --via A"),
     of(
         "two joints",
         "a point's velocity in symbols, and at (0, ·)",

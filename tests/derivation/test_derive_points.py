@@ -12,7 +12,7 @@ from test_derive_details import of
 
 import pinscrew as ps
 from pinscrew.derivation import proof, read_back, reports
-from pinscrew.derivation.asked import PointQuestion, asked
+from pinscrew.derivation.asked import ReportQuestion, asked
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.points import at_values, point_section
 from pinscrew.ground.errors import UnknownNameError
@@ -20,7 +20,7 @@ from pinscrew.ground.errors import UnknownNameError
 PARTS = ("pose", "velocity-matrix", "spatial-velocity")
 
 
-def written(d: Derivation, about: PointQuestion, form: str = "markdown") -> str:
+def written(d: Derivation, about: ReportQuestion, form: str = "markdown") -> str:
     return reports.write(reports.report(d, proof.Proof(0, 0, 0, (), None), PARTS, [point_section(d, about)]), form)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +12,6 @@ import click
 from pinscrew.cli import arguments, moving, output
 
 if TYPE_CHECKING:
-    from pinscrew.derivation.asked import PointQuestion
-    from pinscrew.derivation.derivation import Derivation
-    from pinscrew.derivation.proof import Proof
     from pinscrew.derivation.writer import Detail
     from pinscrew.robot.robot import Robot
 
@@ -64,6 +62,7 @@ def _lengths(_ctx: click.Context, _param: click.Parameter, values: tuple[str, ..
     help="The velocity of this point of the frame too; X,Y,Z@FRAME names the frame.",
 )
 @click.option("--at", metavar="NAME=VALUE", help="With --point: its velocity at these values, the other joints free.")
+@click.option("--via", metavar="FRAME", help="Compose the velocity through this frame: V_AC = V_AB + Ad V_BC.")
 @click.option(
     "--detail",
     type=click.Choice(["result", "steps", "full"]),
@@ -159,6 +158,7 @@ def _report(
     parts: tuple[str, ...],
     place: str | None,
     at: str | None,
+    via: str | None,
     detail: Detail,
     symbols: bool,
     named: dict[str, float],
@@ -170,9 +170,12 @@ def _report(
     **options: Any,
 ) -> tuple[str, bool]:
     """The text, and whether the proof holds."""
+    from pinscrew.derivation import reports
     from pinscrew.derivation.asked import NOTHING, asked
+    from pinscrew.derivation.composition import composition_section
     from pinscrew.derivation.exact import SNAP
     from pinscrew.derivation.parts import wanted
+    from pinscrew.derivation.points import point_section
     from pinscrew.derivation.run import derive
 
     one = arguments.robot(words)
@@ -182,15 +185,13 @@ def _report(
     point, tip = ((0.0, 0.0, 0.0), tip) if place is None else moving.point(place, tip)
     robot = one.load()
     values = _values(robot, at)
-    derivation = derive(
-        robot,
-        tip,
-        reference=reference,
-        symbols=symbols or named,
-        snap=SNAP if snap is None else snap,
-        loader=lambda change: arguments.Named(one.source, {**one.arguments, **change}, one.options).load(),
+    further = {
+        "symbols": symbols or named,
+        "snap": SNAP if snap is None else snap,
+        "loader": lambda change: arguments.Named(one.source, {**one.arguments, **change}, one.options).load(),
         **options,
-    )
+    }
+    derivation = derive(robot, tip, reference=reference, also=() if via is None else (via,), **further)
     if language is not None:
         from pinscrew.derivation.code import code
         from pinscrew.derivation.read_back_code import read_back_code
@@ -202,16 +203,15 @@ def _report(
             read_back_code(derivation, text, language, kind)
         return text, proof.ok
     about = NOTHING if place is None else asked(derivation, point, values)
-    return _written(derivation, derivation.prove(samples, seed), form, parts, detail, about)
-
-
-def _written(
-    derivation: Derivation, proof: Proof, form: str, parts: tuple[str, ...], detail: Detail, about: PointQuestion
-) -> tuple[str, bool]:
-    from pinscrew.derivation import points, reports
-
-    extra = [points.point_section(derivation, about, detail)] if about.point is not None else []
-    parts = parts or (_BEFORE_A_POINT if extra else ())
+    extra = [] if place is None else [point_section(derivation, about, detail)]
+    proof = derivation.prove(samples, seed)
+    if via is not None:
+        first = derive(robot, via, reference=reference, also=(derivation.tip,), **further)
+        second = derive(robot, derivation.tip, reference=via, also=(derivation.reference,), **further)
+        extra.append(composition_section(derivation, (first, second), detail))
+        about = replace(about, frames={"A": derivation.reference, "B": first.tip, "C": derivation.tip})
+        proof = next((bad for bad in (first.prove(samples, seed), second.prove(samples, seed)) if not bad.ok), proof)
+    parts = parts or (_BEFORE_A_POINT if place is not None else ("pose",) if extra else ())
     whole = reports.report(derivation, proof, parts, extra, detail)
     if not proof.ok:  # what is wrong already is not held against the engines once more
         return reports.write(whole, form), False

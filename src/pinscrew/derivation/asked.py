@@ -1,4 +1,4 @@
-"""What a report is asked about beside its parts: a point that moves with the frame, and joint values."""
+"""What a report is asked about beside its parts: a point that moves with the frame, or a frame on the way."""
 
 from __future__ import annotations
 
@@ -14,20 +14,22 @@ from pinscrew.derivation.forms import ClosedForms
 from pinscrew.ground.errors import UnknownNameError
 from pinscrew.ground.typing import FloatArray
 
-__all__ = ["NOTHING", "PointQuestion", "asked"]
+__all__ = ["NOTHING", "ReportQuestion", "asked"]
 
 
 @dataclass(frozen=True, slots=True)
-class PointQuestion:
-    """A point and joint values.
+class ReportQuestion:
+    """A point and joint values, or three frames.
 
     Attributes:
         point: x, y, z in the frame (m), shape (3, 1); None if there is no question of one.
         at: exact values of some coordinates, by their symbols; the others stay free.
+        frames: the frames that the letters A, B, C stand for.
     """
 
     point: sp.ImmutableMatrix | None = None
     at: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    frames: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def numbers(self) -> FloatArray | None:
@@ -35,11 +37,11 @@ class PointQuestion:
         return None if self.point is None else np.array([float(x) for x in self.point])
 
 
-NOTHING: Final = PointQuestion()
+NOTHING: Final = ReportQuestion()
 """Only the parts."""
 
 
-def asked(derivation: ClosedForms, point: tuple[float, float, float], at: Mapping[str, float]) -> PointQuestion:
+def asked(derivation: ClosedForms, point: tuple[float, float, float], at: Mapping[str, float]) -> ReportQuestion:
     """A question about a point of the derivation's frame.
 
     Args:
@@ -61,7 +63,7 @@ def asked(derivation: ClosedForms, point: tuple[float, float, float], at: Mappin
         symbol = by_name[name]
         angle = exact.angle(repr(value), name, exact.Snaps(0.0)) if symbol in turning else None
         values[symbol] = _length(value) if angle is None or angle.has(sp.Float) else angle
-    return PointQuestion(sp.ImmutableMatrix([_length(x) for x in point]), values)
+    return ReportQuestion(sp.ImmutableMatrix([_length(x) for x in point]), values)
 
 
 def _length(value: float) -> Any:

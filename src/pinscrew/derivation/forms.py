@@ -42,6 +42,7 @@ class ClosedForms:
         robot: the robot.
         tip: the frame whose motion this is.
         reference: the frame in which it is: the base, or another.
+        also: further frames whose joints were read.
         lengths: the symbols of lengths and other arguments, and their values as given.
         remarks: in words: which arguments stay numbers, and why.
         snapped: numbers of the file that were replaced by exact ones.
@@ -53,6 +54,7 @@ class ClosedForms:
     robot: Robot
     tip: str
     reference: str
+    also: tuple[str, ...]
     lengths: Mapping[sp.Symbol, sp.Expr]
     remarks: tuple[str, ...]
     snapped: tuple[Snapped, ...]

@@ -148,7 +148,8 @@ class _Side:
             if base == r"\mathrm{Ad}" and which == "_":
                 return self._adjoint(inner, scripts["^"])
             scripts[str(which)] += "".join(map(str, inner))
-        return self._named(base, scripts["_"], scripts["^"])
+        leg = self._names.leg(base, scripts["_"], scripts["^"])
+        return self._named(base, scripts["_"], scripts["^"]) if leg is None else leg
 
     def _norm(self) -> FloatArray:
         """‖ω‖ or ‖ω‖²."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -38,6 +38,7 @@ class Names:
         scalar: the value (N,) of a symbol, such as a joint's rate; raises `NotUnderstoodError`.
         points: points q_i of axes that were read before.
         point: the point that the report is about, x, y, z in the frame (m), shape (3,).
+        frames: the frames that letters stand for.
     """
 
     truth: Truth
@@ -48,6 +49,7 @@ class Names:
     scalar: Callable[[str], FloatArray]
     points: Mapping[int, FloatArray]
     point: FloatArray | None = None
+    frames: Mapping[str, str] = field(default_factory=dict)
 
     def twist(self, matrix: FloatArray) -> FloatArray:
         """Twists or a Jacobian with its rows in the book's order."""
@@ -57,6 +59,16 @@ class Names:
         """Ad of a pose in the book's order."""
         matrix = np.asarray(se3.adjoint(pose))
         return matrix[:, SWAPPED][:, :, SWAPPED] if self.angular_first else matrix
+
+    def leg(self, base: str, sub: str, sup: str) -> FloatArray | None:
+        """The pose or velocity of one frame in another, such as V^s with AC below, or None."""
+        if len(sub) != 2 or not set(sub) <= set(self.frames):
+            return None
+        pose, velocities = self.truth.leg(self.frames[sub[1]], self.frames[sub[0]])
+        if base in ("g", "T"):
+            return pose if not sup else None
+        kind = {"s": "spatial", "b": "body"}.get(sup, "")
+        return self.twist(velocities[kind]) if base in ("V", r"\mathcal{V}") and kind else None
 
     def joint(self, symbol: str) -> int:
         """The number of the joint whose value a symbol is."""

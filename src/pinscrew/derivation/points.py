@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 import sympy as sp
 
-from pinscrew.derivation.asked import PointQuestion
+from pinscrew.derivation.asked import ReportQuestion
 from pinscrew.derivation.blocks import Block, Formula, Paragraph, Section, named
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.forms import ClosedForms
@@ -16,14 +16,14 @@ from pinscrew.derivation.writer import Detail, Writer
 __all__ = ["at_values", "point_section"]
 
 
-def point_section(derivation: Derivation, asked: PointQuestion, detail: Detail = "steps") -> Section:
+def point_section(derivation: Derivation, asked: ReportQuestion, detail: Detail = "steps") -> Section:
     """The section: q_a = g q_b, v_a = V̂^s q_a and v_b = V̂^b q_b (MLS §2.4.2), and at the values that are asked for."""
     w = Writer(derivation, detail)
     blocks = tuple(_point(w, asked))
     return Section("", "point", "Velocity of a point", (*w.short_forms(), *blocks))
 
 
-def _point(w: Writer, asked: PointQuestion) -> Iterable[Block]:
+def _point(w: Writer, asked: ReportQuestion) -> Iterable[Block]:
     d, n = w.d, w.n
     homogeneous = sp.ImmutableMatrix([*(asked.point or sp.zeros(3, 1)), 1])
     yield Paragraph(
@@ -49,7 +49,7 @@ def _point(w: Writer, asked: PointQuestion) -> Iterable[Block]:
         yield from w.result(rf"v_{{q_{{b}}}}{place}", matrix=at_values(d, velocity_b, asked), name="v")
 
 
-def at_values(d: ClosedForms, matrix: sp.Matrix, asked: PointQuestion) -> sp.ImmutableMatrix:
+def at_values(d: ClosedForms, matrix: sp.Matrix, asked: ReportQuestion) -> sp.ImmutableMatrix:
     """A matrix with the values of some coordinates put in, in sines and cosines of the others."""
     short = {meaning: symbol for symbol, meaning in d.atoms.explicit.items()}
     for joint in d.chain.joints:

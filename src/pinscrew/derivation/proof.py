@@ -203,7 +203,7 @@ def variant(derivation: ClosedForms, lengths: Mapping[sp.Symbol, float], *, foll
     d = derivation
     base = d.robot.base
     by_name = {joint.name: joint for joint in d.robot.description.joints}
-    on_path = {joint.name for frame in (d.tip, d.reference) for joint in d.robot.description.path(frame)}
+    on_path = {joint.name for frame in (d.tip, d.reference, *d.also) for joint in d.robot.description.path(frame)}
     root = ET.Element("robot", name="variant")
     ET.SubElement(root, "link", name=base)
     for joint in d.geometry:

@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from pinscrew.derivation.asked import NOTHING, PointQuestion
+from pinscrew.derivation.asked import NOTHING, ReportQuestion
 from pinscrew.derivation.forms import ClosedForms
 from pinscrew.derivation.named_quantities import side_value
 from pinscrew.derivation.names import Names, NotUnderstoodError
@@ -55,7 +55,9 @@ class ReadBack:
     largest: float
 
 
-def read_back(derivation: ClosedForms, text: str, form: str, seed: int = 0, asked: PointQuestion = NOTHING) -> ReadBack:
+def read_back(
+    derivation: ClosedForms, text: str, form: str, seed: int = 0, asked: ReportQuestion = NOTHING
+) -> ReadBack:
     """Read a report's text and compare every matrix in it with both engines.
 
     Args:
@@ -98,7 +100,7 @@ _SHORT: Final = re.compile(r"([cs])_(.+)")
 class _Reader:
     """Evaluates the equations of one report."""
 
-    def __init__(self, derivation: ClosedForms, drawn: Drawn, asked: PointQuestion = NOTHING) -> None:
+    def __init__(self, derivation: ClosedForms, drawn: Drawn, asked: ReportQuestion = NOTHING) -> None:
         self._d, self._drawn, self._asked = derivation, drawn, asked
         self._known = _scalars(derivation, drawn)
         values = _values(derivation, drawn)
@@ -119,7 +121,7 @@ class _Reader:
         first = self._d.convention == "lynch-park"
         joints = tuple(str(symbol).replace("_", "") for symbol in self._d.joint_values)
         of_all = (first, joints, self._drawn.qd, self.grid, self.scalar, self._points)
-        return tuple(Names(truth, *of_all, self._asked.numbers) for truth in truths)
+        return tuple(Names(truth, *of_all, self._asked.numbers, self._asked.frames) for truth in truths)
 
     def equation(self, equation: Equation, following: Sequence[Equation]) -> None:
         """Read one equation; the ``following`` ones may say what names in its matrices stand for."""
@@ -269,7 +271,8 @@ def _latex(grid: Grid) -> str:
 def _values(d: ClosedForms, drawn: Drawn) -> dict[str, FloatArray]:
     """The value (N,) of each joint, without its offset, by the joint's name in the file."""
     found = {variable.joint: drawn.q[:, i] for i, variable in enumerate(d.coordinates)}
-    return found | {joint.variable.joint: drawn.values[:, i] for i, joint in enumerate(d.chain.joints)}
+    found |= {joint.variable.joint: drawn.values[:, i] for i, joint in enumerate(d.chain.joints)}
+    return found | {name: values for name, (values, _) in drawn.others.items()}
 
 
 def _scalars(d: ClosedForms, drawn: Drawn) -> dict[str, FloatArray]:
@@ -282,6 +285,7 @@ def _scalars(d: ClosedForms, drawn: Drawn) -> dict[str, FloatArray]:
     values = _values(d, drawn)
     rates = {variable.joint: drawn.qd[:, i] for i, variable in enumerate(d.coordinates)}
     rates |= {joint.variable.joint: drawn.rates[:, i] for i, joint in enumerate(d.chain.joints)}
+    rates |= {name: rate for name, (_, rate) in drawn.others.items()}
     found: dict[str, FloatArray] = {}
     pairs = [(str(symbol), np.full(count, value)) for symbol, value in drawn.lengths.items()]
     for variable in d.variables:

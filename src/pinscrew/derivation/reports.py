@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from pinscrew.derivation import formats, page
-from pinscrew.derivation.asked import NOTHING, PointQuestion
+from pinscrew.derivation.asked import NOTHING, ReportQuestion
 from pinscrew.derivation.blocks import Block, Paragraph, Section, Table, Writeup, from_file, named
 from pinscrew.derivation.derivation import Derivation
 from pinscrew.derivation.notation import NOTATIONS
@@ -120,7 +120,7 @@ _COUNTED: Final = "MATRICESREADBACK"
 """Stands for their number in the text until that has been read."""
 
 
-def written(derivation: Derivation, whole: Writeup, form: str, asked: PointQuestion = NOTHING) -> str:
+def written(derivation: Derivation, whole: Writeup, form: str, asked: ReportQuestion = NOTHING) -> str:
     """A report as text that was read back, and says so: see `read_back`.
 
     Args:

@@ -53,6 +53,7 @@ def derive(
     tip: str | None = None,
     *,
     reference: str | None = None,
+    also: Sequence[str] = (),
     symbols: bool | Mapping[str, float] = False,
     names: Naming = "theta",
     convention: Convention = "mls",
@@ -70,6 +71,7 @@ def derive(
         tip: the frame; by default the robot's tip.
         reference: the frame in which it moves; by default the base. It may be any link: one fixed to the base is
             another choice of frame 0, between two others that move are the joints that lie between them.
+        also: further frames, whose joints are read, numbered and named with the others.
         symbols: name the distinct lengths that are still numbers l1, l2, …; or these lengths (m), by name.
         names: call the joints' values θ1, θ2, … (``"theta"``), those of sliding joints d3 (``"d"``), or as the
             file does (``"urdf"``).
@@ -91,7 +93,8 @@ def derive(
     robot = robot_of(robot)
     tip = robot.frame(tip)
     reference = robot.base if reference is None else robot.frame(reference)
-    frames = tuple(dict.fromkeys((tip, reference)))
+    also = tuple(map(robot.frame, also))
+    frames = tuple(dict.fromkeys((tip, reference, *also)))
     joints = reading.printed(robot, frames)
     variables = _variables(joints, names)
     found = arguments.recover(robot, frames, joints, loader or _reload(robot))
@@ -116,6 +119,7 @@ def derive(
         robot=robot,
         tip=tip,
         reference=reference,
+        also=also,
         lengths=lengths,
         remarks=tuple(f"argument {name} stays a number: {why}" for name, why in found.numeric.items()),
         snapped=tuple(snaps.found),

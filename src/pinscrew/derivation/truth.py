@@ -36,6 +36,7 @@ class Drawn:
         robot: joints that follow others do.
         free: every joint moves on its own.
         offsets: of the joints that move the frame where their values are 0, shape (n,).
+        others: values and rates, shapes (N,), of the joints that were read for other frames.
     """
 
     lengths: Mapping[sp.Symbol, float]
@@ -46,6 +47,7 @@ class Drawn:
     robot: Robot
     free: Robot
     offsets: FloatArray
+    others: Mapping[str, tuple[FloatArray, FloatArray]]
 
 
 def draw(d: ClosedForms, seed: int) -> Drawn:
@@ -62,7 +64,26 @@ def draw(d: ClosedForms, seed: int) -> Drawn:
     robot = variant(d, lengths)
     free = variant(d, lengths, follow=False) if d.follows else robot
     given = np.array(offsets) if d.follows else np.zeros(len(offsets))
-    return Drawn(lengths, q, qd, q[:, columns] * factors, qd[:, columns] * factors, robot, free, given)
+    others = _others(d, lengths, q, qd, rng)
+    return Drawn(lengths, q, qd, q[:, columns] * factors, qd[:, columns] * factors, robot, free, given, others)
+
+
+def _others(
+    d: ClosedForms, lengths: Mapping[sp.Symbol, float], q: FloatArray, qd: FloatArray, rng: np.random.Generator
+) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """Of joints that do not move the frame, but others that were read with it."""
+    known = {variable.joint: (q[:, i], qd[:, i]) for i, variable in enumerate(d.coordinates)}
+    own = {joint.variable.joint for joint in d.chain.joints} | set(known)
+    others: dict[str, tuple[FloatArray, FloatArray]] = {}
+    for joint in d.geometry:
+        if joint.type == "fixed" or joint.name in own:
+            continue
+        if joint.master not in known:
+            known[joint.master] = (rng.uniform(0.3, 1.4, len(q)), rng.uniform(0.3, 1.4, len(q)))
+        factor = float(sp.sympify(joint.multiplier).xreplace(dict(lengths)))
+        values, rates = known[joint.master]
+        others[joint.name] = (factor * values, factor * rates)
+    return others
 
 
 class Truth:
@@ -149,6 +170,19 @@ class Truth:
         at = dict(zip(moving, self._drawn.q.T, strict=True))
         poses = self._ask(self._drawn.robot, at, len(self._drawn.q), [child, self._d.reference]).poses
         return np.asarray(se3.inverse(poses[:, 1]) @ poses[:, 0])
+
+    def leg(self, tip: str, reference: str) -> tuple[FloatArray, Mapping[str, FloatArray]]:
+        """The pose of one frame in another, and its velocities by kind, of shape (N, 6, 1)."""
+        drawn = self._drawn
+        at = {v.joint: (drawn.q[:, i], drawn.qd[:, i]) for i, v in enumerate(self._d.coordinates)}
+        free = drawn.robot.coordinate_names
+        at |= {name: found for name, found in drawn.others.items() if name in free}
+        values = {name: value for name, (value, _) in at.items()}
+        pose, jacobians = relative(self._ask(drawn.robot, values, len(drawn.q), [tip, reference]))
+        rates = np.zeros((len(drawn.q), drawn.robot.nv, 1))
+        for name, (_, rate) in at.items():
+            rates[:, drawn.robot.velocity_names.index(name), 0] = rate
+        return pose, {kind: J @ rates for kind, J in jacobians.items()}
 
     def twist(self, i: int) -> FloatArray:
         """ξi: column i of J^s where all joints are at zero."""
