@@ -103,6 +103,9 @@ def toolbox_s(robot: ps.Robot, what: str) -> Given:
     pytest.importorskip("roboticstoolbox")
     model = ps.witness("roboticstoolbox", robot).model  # type: ignore[attr-defined]
     chain = model.ets(end=next(link for link in model.links if link.name == TIP))
+    if "analytical" in what:
+        representation = what.split("`")[3]
+        return np.array([model.jacob0_analytical(q, representation=representation, end=TIP) for q in Q])
     return np.array([(chain.jacobe if "jacobe" in what else chain.jacob0)(q) for q in Q])
 
 
@@ -154,7 +157,10 @@ def test_jacobians(robot: ps.Robot, what: str) -> None:
     assert kind == candidate.observer.kind
     places = {candidate.observer.root: "base", candidate.observer.frame: "frame"}
     assert (places[candidate.observer.point], places[candidate.observer.base]) == (point, axes)
-    assert candidate.writing.order == order.replace("ω", "w").replace(" ", "")
+    assert candidate.writing.order == order.replace("rates", "w").replace("ω", "w").replace(" ", "")
+    if kind == "analytic":
+        words = (candidate.words, *candidate.aliases)
+        assert any(f" {TIP}, rates of its position and {name.split(', ')[1]}" in each for each in words)
     assert (candidate.writing.unit, candidate.writing.angle, candidate.writing.layout) == ("m", "rad", "rows")
 
 

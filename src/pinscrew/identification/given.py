@@ -24,7 +24,7 @@ SINGLE: Final = 2e-6
 DIGITS: Final = range(8, 1, -1)
 """How many decimals are looked for in numbers that were printed."""
 _WHERE: Final = "identify"
-_SHAPES: Final = "give a Jacobian (6, m) or (m, 6), a pose (4, 4), or rows of 6 or 7 numbers, for each q"
+_SHAPES: Final = "give a Jacobian (6, m), (m, 6) or with 7, a pose (4, 4), or rows of 6 or 7 numbers, for each q"
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ class GivenSamples:
     Attributes:
         quantity: of what kind.
         q: configurations, shape (N, nq).
-        values: what was given: (N, 6, m) or (N, m, 6), (N, 4, 4), (N, 6) or (N, 7).
+        values: what was given: (N, 6, m) or (N, m, 6), the same with 7, (N, 4, 4), (N, 6) or (N, 7).
         qd: rates of a twist, shape (N, nv); otherwise None.
     """
 
@@ -74,7 +74,7 @@ def samples(robot: Robot, q: ArrayLike, given: Sequence[ArrayLike]) -> GivenSamp
     if values.shape[: len(lead)] != lead or not values.size or not _known(shape):
         what = f"the array has the shape {values.shape} for q of the shape {(*lead, robot.nq)}"
         raise InputError("shape", what, where=_WHERE, remedy=_SHAPES)
-    quantity: Quantity = "jacobian" if len(shape) == 2 and 6 in shape else "pose"
+    quantity: Quantity = "jacobian" if len(shape) == 2 and shape != (4, 4) else "pose"
     return GivenSamples(quantity, at, values.reshape(-1, *shape))
 
 
@@ -95,7 +95,7 @@ def tolerances(values: FloatArray) -> Iterator[tuple[float, float]]:
 
 
 def _known(shape: tuple[int, ...]) -> bool:
-    return shape in ((6,), (7,), (4, 4)) or (len(shape) == 2 and 6 in shape)
+    return shape in ((6,), (7,), (4, 4)) or (len(shape) == 2 and (6 in shape or 7 in shape))
 
 
 def _finite(value: ArrayLike, name: str) -> FloatArray:

@@ -11,6 +11,8 @@ import numpy as np
 from pinscrew.engines.base import Engine
 from pinscrew.ground.errors import AmbiguousTipError
 from pinscrew.ground.typing import FloatArray
+from pinscrew.identification.encodings import Encoding
+from pinscrew.identification.rates import rates_of
 from pinscrew.robot.robot import Robot
 
 __all__ = ["Observer", "moving", "observed", "observers"]
@@ -29,6 +31,7 @@ class Observer:
         base: the frame whose axes it is written in.
         root: the robot's base.
         offset: where the point stands in ``point``, m: a tool that the file does not know.
+        rates: of what, in place of ω: an analytic Jacobian, of the pose of the frame in the base.
     """
 
     frame: str
@@ -36,10 +39,13 @@ class Observer:
     base: str
     root: str
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rates: Encoding | None = None
 
     @property
     def kind(self) -> str:
-        """``"spatial"``, ``"body"``, ``"hybrid"``, or ``"mixed"`` where the axes are of yet another frame."""
+        """``"spatial"``, ``"body"``, ``"hybrid"``, ``"analytic"``, or ``"mixed"``: the axes of another frame."""
+        if self.rates is not None:
+            return "analytic"
         if self.point == self.root and self.point != self.frame:
             return "spatial" if self.base == self.root else "mixed"
         return "body" if self.base == self.frame else "hybrid" if self.base == self.root else "mixed"
@@ -48,6 +54,8 @@ class Observer:
     def words(self) -> str:
         """What it is called."""
         called = {"spatial": "Pinocchio WORLD", "body": "Pinocchio LOCAL", "hybrid": "Pinocchio LOCAL_WORLD_ALIGNED"}
+        if self.rates is not None:
+            return f"the analytic {{}} of {self.frame}, rates of its position and {self.rates.name} in {self.root}"
         if any(self.offset):
             at = ", ".join(f"{value:.6g}" for value in self.offset)
             return f"the {self.kind} {{}} of the point ({at}) m in {self.frame}"
@@ -79,7 +87,7 @@ def observers(robot: Robot) -> Iterator[Observer]:
 
 
 def observed(engine: Engine, observer: Observer, q: FloatArray) -> FloatArray:
-    """The Jacobian as an observer has it, rows (v, ω); shape (N, 6, nv).
+    """The Jacobian as an observer has it, rows (v, ω) or v and rates; shape (N, 6, nv), or (N, 7, nv).
 
     A point p that moves with the frame has the velocity v + ω × p (MLS eq. 2.53), p in the axes of v. Columns of a
     hybrid Jacobian turned into the axes of a frame G: diag(R_base_Gᵀ, R_base_Gᵀ) Jʰ (MLS eq. 2.58, p = 0).
@@ -89,6 +97,9 @@ def observed(engine: Engine, observer: Observer, q: FloatArray) -> FloatArray:
     if observer.kind == "body":
         return _moved(np.asarray(engine.jacobian(q, observer.frame, "body")), np.array(observer.offset))
     J = np.asarray(engine.jacobian(q, observer.frame, "hybrid"))
+    if observer.rates is not None:
+        R_base_frame = np.asarray(engine.fk(q, observer.frame))[:, :3, :3]
+        return np.concatenate([J[:, :3], rates_of(observer.rates, R_base_frame) @ J[:, 3:]], axis=1)
     if observer.kind == "hybrid" and not any(observer.offset):
         return J
     if observer.kind == "hybrid":

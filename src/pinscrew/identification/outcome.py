@@ -52,7 +52,7 @@ class Candidate:
         if self.observer is not None and self.writing is not None:
             thing = "Jacobian" if self.quantity == "jacobian" else "twist"
             said = self.observer.words.format(thing)
-            written = self.writing.words(self.names)
+            written = self.writing.words(self.names, "rates" if self.observer.rates else "ω")
             return f"{said}, {written}" if written else said
         a, b = self.frames
         return f"the pose of {b} in {a}, as {self.encoding.name if self.encoding else ''}"
@@ -61,11 +61,14 @@ class Candidate:
     def cost(self) -> int:
         """How far from the plainest convention it is."""
         if self.writing is not None and self.observer is not None:
-            return self.writing.cost(len(self.names)) + 3 * (self.observer.kind == "mixed")
+            rates = 2 + self.observer.rates.cost if self.observer.rates else 0
+            return self.writing.cost(len(self.names)) + 3 * (self.observer.kind == "mixed") + rates
         return self.encoding.cost if self.encoding else 0
 
     def convert(self, given: ArrayLike) -> FloatArray:
         """What was given, as ours: rows (v, ω), metres and radians, a column for each velocity; poses as 4×4.
+
+        Of an analytic Jacobian the rates remain rates of the same angles, as it is q that makes ω of them.
 
         Args:
             given: numbers in this convention, shape (..., 6, m), (..., 6), (..., 7) or (..., 4, 4) as they were given.
@@ -162,9 +165,17 @@ def _fields(candidate: Candidate) -> dict[str, Any]:
     observer, writing = candidate.observer, candidate.writing
     if observer is None or writing is None:
         return common
-    own_ = {"kind": observer.kind, "frame": observer.frame, "point": observer.point, "base": observer.base}
+    own_: dict[str, Any] = {
+        "kind": observer.kind,
+        "frame": observer.frame,
+        "point": observer.point,
+        "base": observer.base,
+    }
     how = {"order": writing.order, "unit": UNITS[writing.unit], "angle": writing.angle, "layout": writing.layout}
     names = [candidate.names[i] for i in writing.joints]
+    if observer.rates is not None:
+        own_ |= {"encoding": observer.rates.form, "sequence": observer.rates.sequence or None}
+        own_ |= {"rates": observer.rates.angle}
     return {**common, **own_, **how, "joints": names, "signs": list(writing.signs)}
 
 
@@ -175,7 +186,7 @@ def _converted(array: FloatArray, candidate: Candidate) -> FloatArray:
         rows = array if writing.order == "v,w" else np.concatenate([array[..., 3:], array[..., :3]], axis=-1)
         return np.concatenate([rows[..., :3] * UNITS[writing.unit], rows[..., 3:] / per], axis=-1)
     J = np.swapaxes(array, -1, -2) if writing.layout == "transposed" else array
-    J = J if writing.order == "v,w" else np.concatenate([J[..., 3:, :], J[..., :3, :]], axis=-2)
+    J = J if writing.order == "v,w" else np.concatenate([J[..., -3:, :], J[..., :-3, :]], axis=-2)
     J = np.concatenate([J[..., :3, :] * UNITS[writing.unit], J[..., 3:, :]], axis=-2)
     found = np.zeros((*J.shape[:-1], len(candidate.names)))
     joints = list(writing.joints)
@@ -189,9 +200,12 @@ def _code(candidate: Candidate) -> str:
     if writing is None or candidate.quantity != "jacobian":
         return ""
     lines = ["J = np.swapaxes(J, -1, -2)"] if writing.layout == "transposed" else []
-    lines += ["J = J[..., [3, 4, 5, 0, 1, 2], :]"] if writing.order == "w,v" else []
+    rates = candidate.observer.rates if candidate.observer else None
+    turning = 4 if rates and rates.form.startswith("quaternion") else 3
+    if writing.order == "w,v":
+        lines.append(f"J = J[..., {[*range(turning, turning + 3), *range(turning)]}, :]")
     if writing.unit != "m":
-        lines.append(f"J = J * np.array([[{UNITS[writing.unit]}]] * 3 + [[1.0]] * 3)")
+        lines.append(f"J = J * np.array([[{UNITS[writing.unit]}]] * 3 + [[1.0]] * {turning})")
     per = np.where(candidate.turning[list(writing.joints)] > 0.0, 180.0 / np.pi, 1.0)
     scale = np.array(writing.signs) * (per if writing.angle == "deg" else 1.0)
     lines += [] if (scale == 1.0).all() else [f"J = J * np.array({[float(value) for value in scale]})"]

@@ -15,10 +15,10 @@ from pinscrew.engines.poe import PoE
 from pinscrew.ground.typing import ArrayLike, FloatArray
 from pinscrew.identification.encodings import Encoding, encodings
 from pinscrew.identification.given import GivenSamples, samples, tolerances
-from pinscrew.identification.observers import moving, observed, observers
+from pinscrew.identification.observers import moving, observed
 from pinscrew.identification.outcome import Candidate, Identified
-from pinscrew.identification.points import movable
-from pinscrew.identification.writings import UNITS, Writing, columns
+from pinscrew.identification.search import jacobians, per_angle, unknown_points
+from pinscrew.identification.writings import UNITS
 from pinscrew.lie import se3
 from pinscrew.robot.loading import RobotLike, robot_of
 from pinscrew.robot.robot import Robot
@@ -59,9 +59,9 @@ def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
     places = _places(robot)
     found: list[Candidate] = []
     for relative, absolute in tolerances(asked.values):
-        search = _poses if asked.quantity == "pose" else _jacobians
+        search = _poses if asked.quantity == "pose" else jacobians
         found = list(search(robot, engine, asked, relative, absolute))
-        found = found or list(_points(robot, engine, asked, relative, absolute))
+        found = found or list(unknown_points(robot, engine, asked, relative, absolute))
         if found:
             other = Pinocchio(robot)
             found = [each for each in found if _confirmed(other, each, asked, relative, absolute)]
@@ -71,71 +71,8 @@ def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
     return Identified(robot.name, tuple(distinct), len(asked.q), _telling(engine, distinct, places))
 
 
-def _jacobians(
-    robot: Robot, engine: Engine, asked: GivenSamples, relative: float, absolute: float
-) -> Iterator[Candidate]:
-    turning = _turning(robot)
-    twist = asked.qd is not None
-    layouts = ("rows", "transposed") if asked.values.shape[1:] == (6, 6) else ("rows",)
-    if not twist and asked.values.shape[1] != 6:
-        layouts = ("transposed",)
-    for observer in observers(robot):
-        J = observed(engine, observer, asked.q)
-        ours = J if asked.qd is None else J @ asked.qd[:, :, None]
-        per_column = turning if asked.qd is None else np.zeros(0)
-        for order, unit, angle, layout in product(("v,w", "w,v"), UNITS, ("rad", "deg"), layouts):
-            if twist and not turning.any() and angle == "deg":
-                continue
-            writing = Writing(order, unit, angle, layout)  # type: ignore[arg-type]
-            expected = writing.rows(ours, per_column)
-            values = asked.values[:, :, None] if twist else asked.values
-            values = np.swapaxes(values, 1, 2) if layout == "transposed" else values
-            off = _apart(values, expected, relative, absolute)
-            if twist:
-                if off[0, 0, 0] <= 1.0:
-                    residual = float(abs(values - expected).max())
-                    yield Candidate(asked.quantity, residual, robot.velocity_names, turning, observer, writing)
-                continue
-            for joints, signs in columns(off <= 1.0):
-                residual = float(abs(values - expected[:, :, list(joints)] * signs).max())
-                written = replace(writing, joints=joints, signs=signs)
-                yield Candidate(asked.quantity, residual, robot.velocity_names, turning, observer, written)
-
-
-def _points(robot: Robot, engine: Engine, asked: GivenSamples, relative: float, absolute: float) -> Iterator[Candidate]:
-    """Jacobians with all columns in their order, of points that the file does not name."""
-    if asked.quantity != "jacobian" or sorted(asked.values.shape[1:]) != sorted((6, robot.nv)):
-        return
-    turning, rows, joints = _turning(robot), asked.values, tuple(range(robot.nv))
-    layouts = ["rows"] if rows.shape[1] == 6 else []
-    layouts += ["transposed"] if rows.shape[2] == 6 else []
-    seen = list(movable(robot, engine, asked.q))
-    for layout, order, unit, angle in product(layouts, ("v,w", "w,v"), UNITS, ("rad", "deg")):
-        writing = Writing(order, unit, angle, layout, joints, (1,) * robot.nv)  # type: ignore[arg-type]
-        given = np.swapaxes(rows, 1, 2) if layout == "transposed" else rows
-        ours = given * np.where((turning > 0.0) & (angle == "deg"), 180.0 / np.pi, 1.0)
-        linear, angular = (ours[:, :3], ours[:, 3:]) if order == "v,w" else (ours[:, 3:], ours[:, :3])
-        for each in seen:
-            for observer in each.explaining(linear * UNITS[unit], angular):
-                expected = writing.rows(observed(engine, observer, asked.q), turning)
-                off = _apart(given, expected, relative, absolute)[joints, joints, 0]
-                if off.max() <= 1.0:
-                    residual = float(abs(given - expected).max())
-                    yield Candidate(asked.quantity, residual, robot.velocity_names, turning, observer, writing)
-
-
-def _apart(values: FloatArray, expected: FloatArray, relative: float, absolute: float) -> FloatArray:
-    """How far each given column is from each expected one and from its opposite, in tolerances; shape (m, n, 2)."""
-    blocks = []
-    for rows in (slice(0, 3), slice(3, 6)):
-        theirs, ours = values[:, rows, :, None], expected[:, rows, None, :]
-        tolerance = absolute + relative * max(abs(theirs).max(initial=0.0), 1e-3)
-        blocks.append(np.stack([abs(theirs - ours), abs(theirs + ours)], axis=-1).max(axis=(0, 1)) / tolerance)
-    return np.asarray(np.maximum(*blocks))
-
-
 def _poses(robot: Robot, engine: Engine, asked: GivenSamples, relative: float, absolute: float) -> Iterator[Candidate]:
-    turning, tip = _turning(robot), moving(robot)[:1]
+    turning, tip = per_angle(robot), moving(robot)[:1]
     frames = robot.frame_names
     pairs = [(a, b) for a, b in product(frames, frames) if a != b]
     pairs.sort(key=lambda pair: (pair[0] != robot.base, pair[1] not in tip))
@@ -236,7 +173,3 @@ def _places(robot: Robot) -> FloatArray:
     """Configurations within the limits, always the same; shape (TRIED, nq)."""
     drawn = configurations(robot, TRIED, 0)
     return drawn.q[[k for k, label in enumerate(drawn.labels) if label.startswith("random")]]
-
-
-def _turning(robot: Robot) -> FloatArray:
-    return np.array([1.0 if unit == "rad" else 0.0 for unit in robot.velocity_units])

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pinscrew.ground.typing import FloatArray
 
@@ -13,8 +14,8 @@ __all__ = ["UNITS", "Writing", "columns"]
 
 UNITS: Final = {"m": 1.0, "mm": 0.001, "cm": 0.01}
 """Metres per unit."""
-MOST: Final = 3
-"""So many ways to order columns are looked for; two are ambiguous already."""
+MOST: Final = 8
+"""So many ways to order columns are looked for; two that differ are ambiguous already."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class Writing:
         """Columns (N, 6, n) of ours, with rows and units as here.
 
         Args:
-            ours: rows (v, ω), m and rad.
+            ours: rows (v, ω), m and rad; or v and rates, of which there may be four.
             turning: 1 where a column is of a turning joint, 0 of a sliding one; of a twist it is empty.
         """
         per = np.pi / 180.0 if self.angle == "deg" else 1.0
@@ -53,9 +54,9 @@ class Writing:
             angular = angular / per
         return np.concatenate([linear, angular] if self.order == "v,w" else [angular, linear], axis=1)
 
-    def words(self, names: tuple[str, ...]) -> str:
+    def words(self, names: tuple[str, ...], turn: str = "ω") -> str:
         """What differs from ours, which has rows (v, ω), metres, radians and all columns in their order."""
-        said = [] if self.order == "v,w" else ["rows (ω, v)"]
+        said = [] if self.order == "v,w" else [f"rows ({turn}, v)"]
         said += [] if self.unit == "m" else [f"in {self.unit}"]
         said += [] if self.angle == "rad" else ["per degree" if self.joints else "in degrees"]
         said += [] if self.layout == "rows" else ["transposed"]
@@ -72,11 +73,14 @@ class Writing:
         return 2 * (4 - sum(plain)) + 3 * moved + 4 * sum(sign < 0 for sign in self.signs)
 
 
-def columns(fits: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
+def columns(
+    fits: NDArray[np.bool_], empty: frozenset[int] = frozenset()
+) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
     """Ways to give each column a joint of its own and a sign, those in the joints' order first; at most `MOST`.
 
     Args:
         fits: whether a given column is a joint's, shape (m, n, 2); for the sign + and for the sign -.
+        empty: joints that do not move the frame: their columns are all alike, and are named in the joints' order.
     """
     count, joints, _ = fits.shape
     found: list[tuple[tuple[int, ...], tuple[int, ...]]] = []
@@ -87,8 +91,10 @@ def columns(fits: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[tuple
             found.append((chosen, signs))
             return
         first = chosen[-1] + 1 if chosen else 0
-        for joint in sorted(set(range(joints)) - set(chosen), key=lambda i: (i < first, i)):
-            for k, sign in enumerate((1, -1)):
+        left = set(range(joints)) - set(chosen)
+        left -= empty - {min(empty & left, default=-1)}
+        for joint in sorted(left, key=lambda i: (i < first, i)):
+            for k, sign in enumerate((1,) if joint in empty else (1, -1)):
                 if fits[column, joint, k] and len(found) < MOST:
                     extend((*chosen, joint), (*signs, sign))
 
