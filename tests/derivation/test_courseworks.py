@@ -56,6 +56,14 @@ def test_all_five_courseworks_to_the_last_part() -> None:
     assert not [row.question for row in TABLE.ROWS if not row.command]
 
 
+def test_the_table_of_the_readme_is_of_these() -> None:
+    """They are run with the others."""
+    readme = (SCRIPTS.parent / "README.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^\| .* \| `pinscrew (.*)` \|$", readme, re.MULTILINE)
+    assert len(shown) >= 8
+    assert set(shown) <= set(COMMANDS)
+
+
 @pytest.mark.parametrize("command", COMMANDS[::4])
 def test_the_command_answers(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     answers(command, tmp_path, monkeypatch)
