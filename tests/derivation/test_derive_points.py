@@ -101,6 +101,7 @@ def test_command() -> None:
     assert "(i) " not in done.stdout
     assert "(i) " in run("two_joint", "--point", "0,0,0", "--part", "i", "--samples", "2").stdout
     assert "give --point too" in run("two_joint", "--at", "joint1=1").output
+    assert "has no place for --point" in run("two_joint", "--point", "0,0,0", "--code", "c").output
     assert "is not x,y,z" in run("two_joint", "--point", "0,0").output
     with pytest.raises(UnknownNameError, match="joint9"):
         asked(ps.derive(ps.load("two_joint")), (0, 0, 0), {"joint9": 1.0})

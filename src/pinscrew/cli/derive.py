@@ -182,6 +182,8 @@ def _report(
     wanted(parts, large=False)  # a wrong part is said before the work begins
     if place is None and at is not None:
         raise click.UsageError("--at is of a point: give --point too")
+    if language is not None and (place is not None or via is not None):
+        raise click.UsageError("--code writes functions, and has no place for --point or --via")
     point, tip = ((0.0, 0.0, 0.0), tip) if place is None else moving.point(place, tip)
     robot = one.load()
     values = _values(robot, at)
