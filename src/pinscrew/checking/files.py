@@ -10,6 +10,7 @@ from typing import Final
 
 from numpy.typing import ArrayLike
 
+from pinscrew.checking.blockwise import put_together
 from pinscrew.checking.carried import follows_from
 from pinscrew.checking.grading import Graded, graded
 from pinscrew.checking.meanings import Meanings
@@ -128,6 +129,7 @@ def _found(stands: list[Passage], derivation: Derivation) -> tuple[list[_NamedMa
     """The matrices of a file in order, and all that has a name in it."""
     scope, meanings = Scope(derivation), Meanings(derivation)
     named: dict[str, Node] = {}
+    matrices: dict[str, Written] = {}
     found: list[_NamedMatrix] = []
     for passage in stands:
         if passage.value is not None and not isinstance(passage.value, str):
@@ -144,7 +146,9 @@ def _found(stands: list[Passage], derivation: Derivation) -> tuple[list[_NamedMa
             continue
         for each in assigned:
             if each.listed:
-                found.append(_NamedMatrix(each.name, passage, each.matrix, "", dict(named)))
+                matrix = put_together(each.matrix, matrices)
+                matrices[each.name] = matrix
+                found.append(_NamedMatrix(each.name, passage, matrix, "", dict(named)))
             else:
                 named |= _definition(each, meanings, scope)
     return found, named

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from itertools import combinations_with_replacement
-from typing import Final
 
 import numpy as np
 
-from pinscrew.checking.edits import edits, symbol_names
+from pinscrew.checking.edits import symbol_names
+from pinscrew.checking.explaining import Explainer
+from pinscrew.checking.letters import letters_meant
 from pinscrew.checking.meanings import Meanings, given
 from pinscrew.checking.quantities import right_form
 from pinscrew.checking.scope import NoValueError, Quotient, Scope
@@ -19,15 +19,12 @@ from pinscrew.checking.texts import Written
 from pinscrew.checking.verdict import AnswerVerdict
 from pinscrew.derivation.chain import Elements
 from pinscrew.derivation.derivation import Derivation
-from pinscrew.derivation.trig import Element
 from pinscrew.ground.errors import InputError
 from pinscrew.mathtext import Node, Operation, read_latex, read_plain, symbols
 
 __all__ = ["Graded", "Place", "graded", "graded_entry", "read_cell", "read_cells", "shaped"]
 
 Place = tuple[int, int]
-MOST_FACTORS: Final = 3
-"""Of a term that is looked for where one is missing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +125,8 @@ def graded(
     nodes, unread = read_cells(matrix)
     names = {name for node in (*nodes.values(), *defined.values()) for name in symbols(node)}
     known = given(names, meanings, scope, defined)
+    meant = letters_meant(nodes, known, set(defined), due, derivation, scope)
+    known |= {letter: scope.symbol(length) for letter, length in meant.items()}
     values: dict[tuple[int, int], Quotient] = {}
     for place, node in nodes.items():
         try:
@@ -141,7 +140,7 @@ def graded(
     faults: tuple[str, ...] = ()
     if wrong and not unread:
         both = range(1, right.shape[0] + 1), range(1, right.shape[1] + 1)
-        explainer = _Explainer(scope, symbol_names(derivation), due, meanings, known)
+        explainer = Explainer(scope, symbol_names(derivation), due, meanings, known)
 
         def explain(i: int, j: int) -> str:
             return explainer.words(nodes[i + 1, j + 1], values[i + 1, j + 1], due[i][j])
@@ -159,6 +158,7 @@ def graded(
         given=matrix.rows,
         expected=tuple(tuple(str(x) for x in row) for row in expected.tolist()),
         structure=faults,
+        meant=tuple((letter, str(length)) for letter, length in meant.items()),
     )
     return Graded(verdict, scope, values)
 
@@ -195,7 +195,7 @@ def graded_entry(derivation: Derivation, node: Node, right: Node, free: Iterable
         return None
     if value == -due:
         return "the sign"
-    return _Explainer(scope, symbol_names(derivation), [[due]], meanings, known).words(node, value, due)
+    return Explainer(scope, symbol_names(derivation), [[due]], meanings, known).words(node, value, due)
 
 
 def _nearest(
@@ -208,69 +208,6 @@ def _nearest(
     away = [values[i, 1].over - due[i - 1][0].over for i in (1, 2, 3)]
     along = w[0] * away[0] + w[1] * away[1] + w[2] * away[2]
     return [[Quotient(row[0].over + x * along, scope.one)] for x, row in zip(w, due, strict=True)]
-
-
-class _Explainer:
-    """Finds the one change that makes a wrong entry right."""
-
-    def __init__(
-        self,
-        scope: Scope,
-        names: tuple[str, ...],
-        due: list[list[Quotient]],
-        meanings: Meanings,
-        known: Mapping[str, Element],
-    ) -> None:
-        self._scope, self._names, self._due = scope, names, due
-        self._known = {**given(set(names) - set(known), meanings, scope, {}), **known}
-        self._terms: dict[Element, str] | None = None
-
-    def words(self, node: Node, value: Quotient, due: Quotient) -> str:
-        """What is wrong with an entry, in words; or ``""``.
-
-        Args:
-            node: its formula.
-            value: what it is worth.
-            due: what is right.
-        """
-        if not value.over:
-            return "0 stands there: it is left out"
-        for words, changed in edits(node, self._names):
-            try:
-                if self._scope.value(changed, self._known) == due:
-                    return words
-            except NoValueError:
-                continue
-        return self._copied(value) or self._term(value, due)
-
-    def _copied(self, value: Quotient) -> str:
-        """Which other entry's right form stands there."""
-        for i, row in enumerate(self._due, 1):
-            for j, other in enumerate(row, 1):
-                if other.over and value == other:
-                    return f"what is due at ({i}, {j}) stands here"
-                if other.over and value == -other:
-                    return f"what is due at ({i}, {j}), negated, stands here"
-        return ""
-
-    def _term(self, value: Quotient, due: Quotient) -> str:
-        """A term of a few factors that is missing, or too many."""
-        if value.under is not self._scope.one or due.under is not self._scope.one:
-            return ""
-        if self._terms is None:
-            self._terms = {}
-            for count in range(1, MOST_FACTORS + 1):
-                for chosen in combinations_with_replacement(self._names, count):
-                    product = self._scope.one
-                    for name in chosen:
-                        product = product * self._known[name]
-                    self._terms.setdefault(product, "*".join(chosen))
-        difference = due.over - value.over
-        if difference in self._terms:
-            return f"a term {self._terms[difference]} is missing"
-        if -difference in self._terms:
-            return f"a term -{self._terms[-difference]} is missing"
-        return ""
 
 
 def _unsigned(matrix: Written) -> Written:

@@ -60,6 +60,11 @@ class Meanings:
         rate = self._rate(plain)
         if rate is not None:
             return scope.symbol(rate)
+        twice = re.fullmatch(rf"dd(?:ot)?(?:{_VALUE}|d)(\d+)", plain)
+        if twice:
+            number = int(twice[1])
+            there = 1 <= number <= len(self._numbered)
+            return scope.symbol(scope.accelerations[number - 1]) if there else None
         short = _SHORT.fullmatch(plain)
         if short:
             angles = self._sum(re.sub(_VALUE, "", short[2]))

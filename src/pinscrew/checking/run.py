@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pinscrew.checking.blockwise import put_together
 from pinscrew.checking.grading import graded, read_cell
 from pinscrew.checking.numeric import graded_at
 from pinscrew.checking.quantities import quantity_key
@@ -87,7 +88,8 @@ def _answer(answer: Any) -> tuple[Written, dict[str, Node]]:
     if not assigned:
         raise InputError("formula", "the answer is empty", remedy="give a matrix in LaTeX, Python or MATLAB")
     wanted = [each for each in assigned if each.listed] or list(assigned)
-    return wanted[-1].matrix, definitions(assigned[: assigned.index(wanted[-1])])
+    named = {each.name: each.matrix for each in wanted[:-1] if each.name}
+    return put_together(wanted[-1].matrix, named), definitions(assigned[: assigned.index(wanted[-1])])
 
 
 def definitions(assigned: tuple[Assigned, ...]) -> dict[str, Node]:

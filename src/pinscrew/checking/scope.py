@@ -64,7 +64,9 @@ class Scope:
         values = [s for variable in derivation.variables for s in (variable.symbol, variable.rate)]
         roots = [int(s.args[0]) for s in chain.algebra.ring.symbols if s.is_Pow]
         letters = tuple(sp.Symbol(f"free {name}", real=True) for name in free)
-        known = (*derivation.lengths, *values, *letters)
+        # A second derivative is in no right form; it is a letter, so that a dot too many is wrong, and not unread.
+        self.accelerations = tuple(sp.Symbol(f"d{variable.rate}", real=True) for variable in derivation.variables)
+        known = (*derivation.lengths, *values, *letters, *self.accelerations)
         # Within a group angles add, and so do they with letters; where these are no angles, they have no cosines.
         first, *others = chain.algebra.angles or ((),)
         groups = ((*first, *letters), *others) if letters else chain.algebra.angles

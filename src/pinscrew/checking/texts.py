@@ -33,6 +33,8 @@ _PASSED: Final = re.compile(
 )
 _SUBSCRIPTS: Final = str.maketrans("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+-")
 _SIGNS: Final = {"−": "-", "·": "*", "⋅": "*", "×": "*", "²": "^2", "³": "^3", "\u00a0": " ", "°": "*pi/180"}
+_SHORT_FUNCTION: Final = re.compile(r"(?<![A-Za-z\\_{])([cs])\s*(?=\\(?:var)?theta(?![A-Za-z]))")
+"""Craig's cθ₁ for cos θ₁; in an index, ``c_{\\theta_1}``, it is a name."""
 _LETTERS: Final = {
     "θ": r"\theta",
     "ϑ": r"\vartheta",
@@ -98,6 +100,7 @@ def written(text: str) -> tuple[Assigned, ...]:
         text = re.sub("[₀-₉₊₋]+", lambda m: "_{" + m[0].translate(_SUBSCRIPTS) + "}", text)
         for letter, name in _LETTERS.items():
             text = text.replace(letter, name + " ")
+        text = _SHORT_FUNCTION.sub(lambda m: {"c": r"\cos ", "s": r"\sin "}[m[1]], text)
         return tuple(_latex(re.sub(r"(?<!\\)%.*", "", text).replace("$", " ")))
     text = re.sub("(\\w)\u0307", r"dot_\1", text.translate(_SUBSCRIPTS))
     return tuple(_plain(text))

@@ -27,6 +27,7 @@ class VerdictData:
         slips: what explains what is wrong, in words; empty where no single slip does.
         structure: what keeps a wrong answer from being a matrix of its kind, in words: RᵀR = I, a last row.
         follows: quantities that were answered wrongly before, and from which this follows by the right formula.
+        meant: letters of the answer's own for lengths, each with the length that it was found to stand for.
         given: the answer's entries as they were written.
         expected: the right ones.
     """
@@ -40,6 +41,7 @@ class VerdictData:
     expected: tuple[tuple[str, ...], ...]
     structure: tuple[str, ...] = ()
     follows: tuple[str, ...] = ()
+    meant: tuple[tuple[str, str], ...] = ()
 
     @property
     def right(self) -> bool | None:
@@ -68,6 +70,9 @@ class AnswerVerdict(Documented, VerdictData):
         lines += [Sentence(slip, "remark", "slip") for slip in self.slips]
         if self.right is False and not self.slips and not self.follows:
             lines.append(Sentence("no single slip explains it"))
+        if self.meant:
+            read = ", ".join(f"{brief(letter, 40)} as {length}" for letter, length in self.meant)
+            lines.append(Sentence(f"read: {read}, the one assignment of lengths that fits", "note"))
         lines += [Sentence(f"entry ({i}, {j}) is not read: {why}") for (i, j), why in self.unread]
         problem = None if self.right else Problem("failure" if self.entries else "error", word, "check")
         account = Account(
@@ -103,6 +108,7 @@ class AnswerVerdict(Documented, VerdictData):
             "slips": list(self.slips),
             "structure": list(self.structure),
             "follows": list(self.follows),
+            "meant": dict(self.meant),
             "given": [list(row) for row in self.given],
             "expected": [list(row) for row in self.expected],
         }

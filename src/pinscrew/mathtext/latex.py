@@ -120,7 +120,7 @@ class _Reader(TokenReader):
 
     def _starts(self) -> bool:
         token = self._token()
-        known = _GREEK | set(_FUNCTIONS) | _NAMES | _FRACTIONS | {r"\sqrt", r"\dot", r"\pi"}
+        known = _GREEK | set(_FUNCTIONS) | _NAMES | _FRACTIONS | {r"\sqrt", r"\dot", r"\ddot", r"\pi"}
         return token in known or token in CLOSING or bool(re.match(r"[A-Za-z\d.]", token))
 
     def _power(self) -> Node:
@@ -138,6 +138,14 @@ class _Reader(TokenReader):
             self._refuse("braces are missing")
         return self._unit()
 
+    def _part(self) -> Node:
+        r"""The argument of a fraction: of ``\frac12``, which is a half, TeX takes a digit each."""
+        if re.fullmatch(r"\d{2,}", self._token()):
+            digits, place = self._tokens[self._at]
+            self._tokens[self._at] = (digits[1:], place + 1)
+            return Number(float(digits[0]))
+        return self._argument()
+
     def _bracketed(self) -> Node:
         closing = CLOSING[self._next()]
         self._deeper()
@@ -154,7 +162,7 @@ class _Reader(TokenReader):
             return self._bracketed()
         if ahead in _FRACTIONS:
             self._at += 1
-            return Operation("divide", (self._argument(), self._argument()))
+            return Operation("divide", (self._part(), self._part()))
         if ahead in (r"\sqrt", r"\pi"):
             return self._root_or_pi()
         return self._function() if ahead in _FUNCTIONS else self._symbol()
@@ -187,16 +195,16 @@ class _Reader(TokenReader):
 
     def _symbol(self) -> Symbol:
         ahead = self._token()
-        if ahead == r"\dot":
+        if ahead in (r"\dot", r"\ddot"):
             self._at += 1
             braces = self._token() == "{"
             self._at += braces
-            if self._token() == r"\dot":
-                self._refuse("two dots are not read")
+            if self._token() in (r"\dot", r"\ddot"):
+                self._refuse("two dots are not read: write \\ddot")
             inner = self._symbol()
             if braces:
                 self._expect("}")
-            return Symbol(f"dot {inner.name}" + ("" if "_" in inner.name else self._index()))
+            return Symbol(f"{ahead[1:]} {inner.name}" + ("" if "_" in inner.name else self._index()))
         if ahead in _NAMES:
             self._at += 1
             name = self._raw()
