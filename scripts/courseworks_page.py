@@ -90,6 +90,7 @@ MEDICAL_3 = (
     of("c", "the twists, tip", "derive planar_2r --reference frame0 --part a,b"),
     of("d, e", "g(θ) by the product of exponentials, base", "derive planar_2r --part c,d", "T"),
     of("d, e", "the same, tip", "derive planar_2r --reference frame0 --part c,d"),
+    of("e", "the tip's choice carried to the base is the same pose", "derive planar_2r --via frame0", "T"),
     of("e", "Jacobians, base", "derive planar_2r --part Js,Jb", "Js", "Jb"),
     of("e", "Jacobians, tip", "derive planar_2r --reference frame0 --part Js,Jb"),
     of("f", "the workspace of both choices, which coincide", "workspace planar_2r --compare"),

@@ -80,6 +80,16 @@ def test_any_three_frames(frames: tuple[str, str, str], convention: str, form: s
     assert second.prove(3).ok
 
 
+def test_the_choice_of_frame_0_carried_to_the_base() -> None:
+    """(A2, e) The tip's choice, carried to the base, is the same pose."""
+    *legs, about = three(ps.load("planar_2r"), "base", "frame0", "tool")
+    text = written(*legs)
+    s12, c12, c1, s1 = sp.symbols("s12 c12 c1 s1")
+    pose = [[0, 0, 1, -1], [s12, c12, 0, c1 + s12], [-c12, s12, 0, 1 + s1 - c12], [0, 0, 0, 1]]
+    assert sp.expand(of(text, "g_{AC}") - sp.Matrix(pose)) == sp.zeros(4, 4)
+    assert read_back.read_back(legs[0], text, "markdown", asked=about).alone == 0
+
+
 def test_the_sum_is_what_both_engines_say() -> None:
     robot = ps.load("anthropomorphic_rrr")
     whole, first, second, _ = three(robot, "base", "link2", "tool")
@@ -101,6 +111,7 @@ def test_the_sum_is_what_both_engines_say() -> None:
     ("head", "old", "new"),
     [
         ("g_{AB}", "l_{0}", "l_{1}"),
+        ("g_{AC}", "s_{2}", "c_{2}"),
         ("V^{s}_{AB}", r"l_{0} \dot", r"l_{1} \dot"),
         ("V^{s}_{BC}", r"\dot{\theta}_{2}", r"\dot{\theta}_{1}"),
         ("V^{s}_{AC}", "s_{1}", "c_{1}"),
@@ -123,5 +134,5 @@ def test_command() -> None:
     done = run("two_joint", "--via", "A", "--samples", "2")
     assert done.exit_code == 0
     assert "Composition of velocities" in done.stdout
-    assert "A for `base`, B for `A`, C for `tool`" in done.stdout
+    assert "A is `base`, B is `A`, C is `tool`" in done.stdout
     assert run("two_joint", "--via", "nowhere").exit_code != 0

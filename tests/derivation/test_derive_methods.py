@@ -136,3 +136,39 @@ def test_a_slip_is_seen(head: str, old: str, new: str) -> None:
     lines[at] = lines[at].replace(old, new, 1)
     with pytest.raises(read_back.ReadBackError):
         read_back.read_back(d, "\n".join(lines), "markdown")
+
+
+@pytest.mark.parametrize(
+    ("convention", "hat", "omega"),
+    [("mls", r"\hat{\xi}_{%s}", r"\hat{\omega}"), ("lynch-park", r"[\mathcal{S}_{%s}]", r"[\omega]")],
+)
+def test_the_proof_of_the_general_column(convention: Convention, hat: str, omega: str) -> None:
+    """The words, and the product of its three matrices for general R, p, v and ω."""
+    d = ps.derive(ps.load("two_joint"), convention=convention)
+    text = shown(d, "steps", parts=("q",))
+    twist, own = hat % "i", rf"e^{{{hat % 'i'} \theta_{{i}}}}"
+    assert f"Only the factor ${own}$ of" in text
+    assert f"its derivative is ${twist} {own}$" in text
+    last = rf"e^{{{hat % 'i-1'} \theta_{{i-1}}}}"
+    assert rf"$h = e^{{{hat % '1'} \theta_{{1}}}} \cdots {last}$" in text
+    assert rf"= h {twist} {own} \cdots" in text
+    assert text.count(rf"= h {twist} h^{{-1}}") == 1
+    assert rf"R {omega} R^{{T}} & R v - R {omega} R^{{T}} p \\ 0 & 0" in text
+    assert "Only the factor" not in shown(d, "result", parts=("q",))
+    entries = sp.symbols("r:9"), sp.symbols("p:3"), sp.symbols("v:3"), sp.symbols("w:3")
+    R, (p, v, w) = sp.Matrix(3, 3, entries[0]), map(sp.Matrix, entries[1:])
+    W = ps.lie.so3.hat(w)
+    row = sp.Matrix([[0, 0, 0, 1]])
+    h, back = R.row_join(p).col_join(row), R.T.row_join(-R.T * p).col_join(row)
+    whole = h * W.row_join(v).col_join(0 * row) * back
+    assert sp.expand(whole - (R * W * R.T).row_join(R * v - R * W * R.T * p).col_join(0 * row)) == sp.zeros(4, 4)
+
+
+def test_steps_of_the_spatial_velocity() -> None:
+    d = ps.derive(ps.load("one_joint"))
+    for detail, factors in (("result", 1), ("steps", 3)):
+        text = shown(d, detail, parts=("p", "q"))  # type: ignore[arg-type]
+        assert ("The rate of the pose times its inverse (MLS, eq. 2.53):" in text) == (factors == 3)
+        for head in (r"\hat{V}^{s}", r"\hat{\xi}'_{1}"):
+            line = next(x for x in text.splitlines() if x.removeprefix(r"\begin{aligned} ").startswith(head))
+            assert line.count(r"\begin{bmatrix}") == factors

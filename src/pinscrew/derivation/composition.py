@@ -33,9 +33,13 @@ def composition_section(whole: Derivation, legs: Sequence[Derivation], detail: D
 def _composition(w: Writer, first: Writer, second: Writer) -> Iterable[Block]:
     g = w.pose_name
     letters = {"A": w.d.reference, "B": first.d.tip, "C": w.d.tip}
-    yield Paragraph(f"With {', '.join(f'{letter} for {named(frame)}' for letter, frame in letters.items())}:")
+    yield Paragraph(f"{', '.join(f'{letter} is {named(frame)}' for letter, frame in letters.items())}:")
     yield from first.result(f"{g}_{{AB}}", matrix=first.d.pose, name="a")
     yield from second.result(f"{g}_{{BC}}", matrix=second.d.pose, name="b")
+    head = [f"{g}_{{AC}}", f"{g}_{{AB}} {g}_{{BC}}"]
+    if w.steps and not any(x.set.is_wide(x.d.pose) for x in (first, second)):
+        head.append(f"{first.set.matrix(first.d.pose)} {second.set.matrix(second.d.pose)}")
+    yield from w.result(*head, matrix=w.d.pose, name="c")
     for kind, title, topic in (("s", "Spatial", "spatial-sum"), ("b", "Body", "body-sum")):
         yield Paragraph(f"{title} velocities ({w.cite(topic)}):")
         names = [_name(w, kind, pair) for pair in ("AB", "BC", "AC")]

@@ -52,8 +52,9 @@ def geometric(w: Writer) -> Iterable[Block]:
     axes = [partial[:3, :3] @ joint.axis for partial, joint in zip(d.normal.partial, joints, strict=True)]
     for i, z in enumerate(axes, 1):
         yield from w.result(f"z_{{{i}}}", matrix=_column(d, z), name="z")
-    for label, o in origins.items():
-        yield from w.result(f"o_{{{label}}}", matrix=_column(d, o), name="o")
+        yield from w.result(f"o_{{{i}}}", matrix=_column(d, origins[str(i)]), name="o")
+    if labels[-1] == "e":
+        yield from w.result("o_{e}", matrix=_column(d, origins["e"]), name="o")
     yield from _columns(w, labels[-1], axes, list(origins.values()))
 
 
