@@ -34,6 +34,7 @@ IN_GIT = {
 MEASURED = {
     "pinscrew identify scara -q 0.3,0.5,0.1 --matrix J.csv",
     "pinscrew identify scara --samples samples.npz --json",
+    "pinscrew identify scara --home --matrix Slist.csv",
 }
 """Examples that need somebody's numbers; `tests/identification` runs such."""
 

@@ -27,6 +27,13 @@ def test_the_page(tmp_path: Path) -> None:
     q = [0.3, -1.0, 0.5, 0.2, 0.4, 0.1]
     np.savetxt(table, ps.Pinocchio(ps.load("ur5_robot")).jacobian(q, "tool0", "body"))
     np.savez(archive, q=np.asarray(scope["q"]), J=np.asarray(scope["theirs"]))
+    screws = tmp_path / "S.csv"
+    np.savetxt(screws, ps.load("ur5_robot").screws("tool0")[[3, 4, 5, 0, 1, 2]])
     for command in re.findall(r"^\$ pinscrew (.*)$", PAGE, re.MULTILINE):
-        words = command.replace("J.csv", str(table)).replace("samples.npz", str(archive)).split()
+        words = (
+            command.replace("J.csv", str(table))
+            .replace("Slist.csv", str(screws))
+            .replace("samples.npz", str(archive))
+            .split()
+        )
         assert ok(*words).out

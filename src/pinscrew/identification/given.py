@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -15,7 +15,7 @@ from pinscrew.robot.robot import Robot
 
 __all__ = ["GivenSamples", "Quantity", "samples", "tolerances"]
 
-Quantity: TypeAlias = Literal["jacobian", "pose", "twist"]
+Quantity: TypeAlias = Literal["jacobian", "pose", "twist", "screws"]
 
 DOUBLE: Final = 1e-9
 """Relative: numbers of 64 bits, by whatever way they were computed."""
@@ -36,25 +36,32 @@ class GivenSamples:
         q: configurations, shape (N, nq).
         values: what was given: (N, 6, m) or (N, m, 6), the same with 7, (N, 4, 4), (N, 6) or (N, 7).
         qd: rates of a twist, shape (N, nv); otherwise None.
+        home: it is of the robot at zero by what it is: a list of screw axes or a home pose.
     """
 
     quantity: Quantity
     q: FloatArray
     values: FloatArray
     qd: FloatArray | None = None
+    home: bool = False
 
 
-def samples(robot: Robot, q: ArrayLike, given: Sequence[ArrayLike]) -> GivenSamples:
+def samples(robot: Robot, q: ArrayLike | None, given: Sequence[ArrayLike]) -> GivenSamples:
     """What was given, checked.
 
     Args:
         robot: the robot.
-        q: configurations, shape (nq,) or (N, nq).
+        q: configurations, shape (nq,) or (N, nq); None for a list of screw axes or a home pose.
         given: one array for each q, or rates of the shape (nv,) or (N, nv) and twists (6,) or (N, 6).
 
     Raises:
         InputError: if a shape is none of these, or a number is not finite.
     """
+    if q is None:
+        found = samples(robot, robot.neutral, given)
+        if found.quantity == "twist":
+            raise InputError("shape", "a twist is given without q", where=_WHERE, remedy="give the q that it is at")
+        return replace(found, quantity="screws" if found.quantity == "jacobian" else "pose", home=True)
     at = _finite(q, "q")
     if at.ndim not in (1, 2) or at.shape[-1] != robot.nq or not at.size:
         remedy = f"{robot.name} takes {robot.nq} coordinates: ({robot.nq},) or (N, {robot.nq}), N at least 1"

@@ -50,6 +50,11 @@ class Candidate:
     def words(self) -> str:
         """What it is called."""
         if self.observer is not None and self.writing is not None:
+            if self.quantity == "screws":
+                where = {"spatial": "space", "body": "body"}[self.observer.kind]
+                said = f"the {where} screw axes of {self.observer.frame} at zero"
+                written = self.writing.words(self.names)
+                return f"{said}, {written}" if written else said
             thing = "Jacobian" if self.quantity == "jacobian" else "twist"
             said = self.observer.words.format(thing)
             written = self.writing.words(self.names, "rates" if self.observer.rates else "ω")
@@ -197,7 +202,7 @@ def _converted(array: FloatArray, candidate: Candidate) -> FloatArray:
 
 def _code(candidate: Candidate) -> str:
     writing = candidate.writing
-    if writing is None or candidate.quantity != "jacobian":
+    if writing is None or candidate.quantity not in ("jacobian", "screws"):
         return ""
     lines = ["J = np.swapaxes(J, -1, -2)"] if writing.layout == "transposed" else []
     rates = candidate.observer.rates if candidate.observer else None

@@ -34,7 +34,7 @@ MOST: Final = 8
 """So many different conventions are told: what fits more says nothing."""
 
 
-def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
+def identify(robot: RobotLike, q: ArrayLike | None, *given: ArrayLike) -> Identified:
     """Which convention a Jacobian, a pose or a twist is in: whose, at which point, in which axes, order and units.
 
     Every convention that is known is tried: it fits if it gives the numbers at each q to the digits that they have, by
@@ -43,7 +43,8 @@ def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
 
     Args:
         robot: a robot, or a name or path that `load` takes.
-        q: configurations, shape (nq,) or (N, nq); rad and m.
+        q: configurations, shape (nq,) or (N, nq), rad and m; None for what is of no q: a list of screw axes (6, m),
+            such as Slist or Blist of Lynch and Park, or the home pose M (4, 4).
         given: one array for each q: a Jacobian (6, m) or (m, 6), whose columns may lack joints, be in another order or
             have other signs; a pose (4, 4), or 6 or 7 numbers; or two arrays: rates (nv,) and a twist (6,).
 
@@ -56,7 +57,7 @@ def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
     robot = robot_of(robot)
     asked = samples(robot, q, given)
     engine = PoE(robot)
-    places = _places(robot)
+    places = asked.q if asked.home else _places(robot)
     found: list[Candidate] = []
     for relative, absolute in tolerances(asked.values):
         search = _poses if asked.quantity == "pose" else jacobians
@@ -68,7 +69,9 @@ def identify(robot: RobotLike, q: ArrayLike, *given: ArrayLike) -> Identified:
             break
     found.sort(key=lambda each: each.cost)  # stable: of equals the one that was tried first
     distinct = _distinct(engine, found, places)
-    return Identified(robot.name, tuple(distinct), len(asked.q), _telling(engine, distinct, places))
+    return Identified(
+        robot.name, tuple(distinct), len(asked.q), None if asked.home else _telling(engine, distinct, places)
+    )
 
 
 def _poses(robot: Robot, engine: Engine, asked: GivenSamples, relative: float, absolute: float) -> Iterator[Candidate]:
@@ -80,13 +83,17 @@ def _poses(robot: Robot, engine: Engine, asked: GivenSamples, relative: float, a
     inverses = {name: se3.inverse(T) for name, T in T_base.items()}
     known = np.stack([inverses[a] @ T_base[b] for a, b in pairs]) if pairs else np.zeros((0, 1, 4, 4))
     scale = max(1.0, float(abs(asked.values).max(initial=0.0)))
+    inverted = np.asarray(se3.inverse(known))
     for encoding in encodings(asked.values.shape[1:]):
-        T = encoding.decode(asked.values)
+        # An inverse is held against inverses as it was given: turned round, its rounding would be in all numbers.
+        turned = encoding.form == "inverse"
+        T = (replace(encoding, form="matrix") if turned else encoding).decode(asked.values)
         if T is None:
             continue
-        length = UNITS[encoding.unit] * (2.0 * absolute + relative * scale)
-        turn = (2.0 * absolute + relative) * (np.pi / 180.0 if encoding.angle == "deg" else 1.0) + relative
-        off = abs(known - T)
+        length = UNITS[encoding.unit] * (absolute + relative * scale)
+        digits = absolute if asked.values.ndim == 3 else 2.0 * absolute
+        turn = (digits + relative) * (np.pi / 180.0 if encoding.angle == "deg" else 1.0) + relative
+        off = abs((inverted if turned else known) - T)
         fits = (off[..., :3, 3].max(axis=(1, 2)) <= length) & (off[..., :3, :3].max(axis=(1, 2, 3)) <= turn)
         for k in np.flatnonzero(fits):
             residual = float(off[k].max())

@@ -35,6 +35,8 @@ def jacobians(
         absolute: and in addition, in the units that were given.
     """
     for observer in observers(robot):
+        if asked.quantity == "screws" and observer.kind not in ("spatial", "body"):
+            continue
         ours = _seen(engine, observer, asked)
         empty = frozenset(np.flatnonzero(abs(ours).max(axis=(0, 1)) == 0.0).tolist())
         for writing, values in _writings(robot, asked):
