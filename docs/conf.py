@@ -43,6 +43,7 @@ html_math_renderer = "mathml"
 html_theme_options = {"source_repository": REPOSITORY, "source_branch": "main", "source_directory": "docs/"}
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4
+suppress_warnings = ["misc.highlighting_failure"]  # Pygments colours no CSV
 autodoc_typehints = "signature"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True

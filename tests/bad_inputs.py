@@ -161,8 +161,9 @@ MARKUP: Final = [
 STRUCTURE: Final = [
     *(
         Case(f"root {tag}", f'<{tag} name="r"><link name="a"/></{tag}>', "root-element", (f"<{tag}>", "<robot>"), 1)
-        for tag in ("sdf", "mujoco", "Robot", "ROBOT", "xacro", "html")
+        for tag in ("sdf", "Robot", "ROBOT", "xacro", "html")
     ),
+    Case("root mujoco", '<mujoco name="r"><link name="a"/></mujoco>', "mjcf", ("MuJoCo refuses it",), 1),
     Case("prefixed root", '<u:robot xmlns:u="http://u" name="r"><u:link name="a"/></u:robot>', "root-element",
          ("without a namespace prefix",), 1),
     Case("root of an undeclared prefix", '<u:robot name="r"><link name="a"/></u:robot>', "root-element",

@@ -79,7 +79,7 @@ def disagree(monkeypatch: pytest.MonkeyPatch, old: str, new: str) -> None:
     """Let Pinocchio be given another robot than the PoE engine."""
     assert ARM.count(old) == 1
     other = urdfs.load(ARM.replace(old, new))
-    monkeypatch.setattr(verification, "pair_of", lambda robot: (ps.PoE(robot), ps.Pinocchio(other)))
+    monkeypatch.setattr(verification, "readers_of", lambda robot: (ps.PoE(robot), ps.Pinocchio(other)))
 
 
 MOVED = ("0.4 0 0", "0.401 0 0")
@@ -238,7 +238,7 @@ def test_a_file_that_an_engine_refuses(project: pytest.Pytester, monkeypatch: py
     def refuse(robot: ps.Robot) -> Any:
         raise EngineError("pinocchio-refuses", "Pinocchio refuses the file", where=robot.description.file)
 
-    monkeypatch.setattr(verification, "pair_of", refuse)
+    monkeypatch.setattr(verification, "readers_of", refuse)
     done = run(project)
     done.assert_outcomes(passed=1, failed=1, skipped=len(CHECKS) - 1)
     done.stdout.fnmatch_lines(["FAILED robots/arm.urdf::structure - robots/arm.urdf: Pinocchio refuses the file"])
@@ -248,7 +248,7 @@ def test_a_mistake_of_ours_has_a_traceback(project: pytest.Pytester, monkeypatch
     def fail(_: ps.Robot) -> Any:
         raise RuntimeError("a mistake")
 
-    monkeypatch.setattr(verification, "pair_of", fail)
+    monkeypatch.setattr(verification, "readers_of", fail)
     run(project, "-k", "forward").stdout.fnmatch_lines(["*verify*", "E * RuntimeError: a mistake"])
 
 

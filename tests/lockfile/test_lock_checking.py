@@ -261,7 +261,7 @@ def test_names_of_locks() -> None:
     with pytest.raises(DescriptionError, match="is no file, and a lock stands beside") as caught:
         places.beside("scara")
     assert caught.value.code == "lock-name"
-    with pytest.raises(DescriptionError, match="ends in neither") as caught:
+    with pytest.raises(DescriptionError, match="ends in none of") as caught:
         places.beside(__file__)
     assert caught.value.code == "lock-name"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, TypeAlias
@@ -62,7 +63,8 @@ def command(
     if errata:
         _errata(named, form, as_json=as_json)
         return
-    if text is None and len(named) == 2 and Path(named[1].source).is_dir():
+    # Not `Path.is_dir`, which raises for a name that is too long.
+    if text is None and len(named) == 2 and os.path.isdir(named[1].source):  # noqa: PTH112
         _class(words[:-1], Path(named[1].source), (tip, reference), at, csv_file, jobs, as_json=as_json)
         return
     if csv_file is not None or jobs is not None:
